@@ -98,3 +98,27 @@ fn where_the_feed_comes_near_to_the_reach_of_the_nose_the_report_says_so() {
         .ends(0);
     assert!(paper.stdout.contains(line), "{paper}");
 }
+
+/// Waves whose hollows the nose fills to nine tenths. The law of `ats` begins at rest at the rim and
+/// follows the angle. Turned by a part of a turn it leaves 35 um.
+#[test]
+fn a_law_that_follows_the_angle_keeps_its_angles_where_it_begins_at_rest() {
+    for sampler in ["equal-angle", "atpg", "ats", "minimax"] {
+        let waves = format!(
+            "format = 1\nname = \"waves\"\n[part]\naperture = \"8 mm\"\n[surface]\n\
+             use = \"sinusoidal-array\"\namplitude_x = \"0.2 mm\"\nfrequency_x = \"0.34 /mm\"\n\
+             form = \"sum\"\n[tool]\nnose_radius = \"1 mm\"\n[tolerance]\ninterpolation = \"100 nm\"\n\
+             residual = \"10 um\"\n[spindle]\nspeed = \"100 rpm\"\n[feed]\nuse = \"ats\"\n\
+             [sampler]\nuse = \"{sampler}\"\n[compensator]\nuse = \"normal\"\n\
+             [velocity]\nuse = \"analytic\"\n[output]\ndata = []\n"
+        );
+        let bench = Bench::with(&waves);
+        let run = bench.line("run recipe.toml -o out --no-report --format json");
+        let summary = run.ends(0).json();
+        let used = number(&summary, "/residual/max_nm") / 1e4;
+        assert!(
+            (0.9..=1.001).contains(&used),
+            "{sampler}, {used}: {summary:#}"
+        );
+    }
+}

@@ -18,9 +18,13 @@ const TURNS: f64 = 1.25;
 pub const LARGEST_END_GAP: f64 = 0.41;
 /// A law that moves at its end by less than this part of its pitch a turn is at rest there.
 const REST: f64 = 0.01;
-/// Turns for which a law that ends at rest stays there. With the C² start of a turn that follows,
-/// the passes lie within 0.32 feeds of the end.
-const HOLD: f64 = 0.6;
+/// Turns for which a law that begins at rest stays there before it begins: a whole turn, so that every
+/// part of the law keeps its angle. A law that follows the angle leaves the residual at its own angles
+/// alone.
+const HOLD_BEFORE: f64 = 1.0;
+/// Turns for which a law that ends at rest stays there. With the C² end of the turn before, the passes
+/// lie within 0.32 feeds of the end.
+const HOLD_AFTER: f64 = 0.6;
 /// A law of fewer turns has no room for a taper at either end.
 const SHORT: f64 = 2.0;
 /// Fewest turns of the law that replaces so short a law. Within its first and its last turn it moves
@@ -113,7 +117,7 @@ fn replacement(law: &SpiralLaw) -> SpiralLaw {
 enum EndTreatment {
     /// Nothing: the end closes by itself.
     None,
-    /// The law stays at its end for [`HOLD`] turns.
+    /// The law stays where it begins or ends, for [`HOLD_BEFORE`] or [`HOLD_AFTER`] turns.
     Hold,
     /// The feed runs out, from so many turns before the end on.
     Taper(f64),
@@ -156,7 +160,7 @@ impl End {
         };
         match self.treatment {
             EndTreatment::None => None,
-            EndTreatment::Hold => Some((HOLD, [side.rho(0.0), 0.0, 0.0, 0.0, 0.0, 0.0])),
+            EndTreatment::Hold => Some((side.hold(), [side.rho(0.0), 0.0, 0.0, 0.0, 0.0, 0.0])),
             EndTreatment::Taper(turns) => Some((TURNS, side.run_out(turns))),
         }
     }
@@ -172,6 +176,14 @@ struct EndView<'a> {
 impl EndView<'_> {
     fn at(&self, m: f64) -> f64 {
         if self.last { self.law.end() - m } else { m }
+    }
+
+    /// Turns for which the law stays at this end.
+    fn hold(&self) -> f64 {
+        match self.last {
+            true => HOLD_AFTER,
+            false => HOLD_BEFORE,
+        }
     }
 
     fn rho(&self, m: f64) -> f64 {
@@ -342,13 +354,13 @@ mod tests {
     }
 
     #[test]
-    fn a_law_at_rest_at_its_start_is_held() {
+    fn a_law_at_rest_at_its_start_is_held_for_a_whole_turn() {
         let mut law = SpiralLaw::new();
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(9.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
         let held = taper(&law, &task(&law)).law;
-        assert_eq!(held.value(HOLD), 1.0);
-        assert!((held.value(HOLD + 3.0) - law.value(3.0)).abs() < 1e-15);
+        assert_eq!(held.value(1.0), 1.0);
+        assert!((held.value(4.0) - law.value(3.0)).abs() < 1e-15);
     }
 
     /// A law that follows the angle goes on until its slowest angle has passed the rim.

@@ -12,6 +12,10 @@ const STEEPEST: f64 = 10.0;
 /// X's own interpolation does not matter if it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 
+/// Passes that lie closer together than this part of the feed that leaves the residual on a plane may
+/// err as if they lay so far apart. Between them stays a hundredth of the residual.
+pub const CLOSE: f64 = 0.1;
+
 /// With [`Misfit::CutWhatFits`] no step is shorter than this, rad. The path has a kink where the
 /// nose passes from one side of a seam to the other, and no step of any length is right there.
 /// Refinement halves the segments that are too long there.
@@ -208,17 +212,25 @@ impl PhiEvaluator<'_> {
 
 /// The distance to the next turn, mm; on the path's last turn, the distance to the turn before. The
 /// rate is no measure of this distance: a law may come to rest at its ends, and a law that follows
-/// the angle moves back and forth.
+/// the angle moves back and forth. The distance counts as [`CLOSE`] feeds at the least: a law may stay
+/// for a turn where it is, and its passes then lie on each other.
 pub fn pitch(path: &Path<'_>, n: f64) -> f64 {
     let law = path.law;
     let to = |other: f64| (law.value(other) - law.value(n)).abs();
-    if n + 1.0 <= law.end() {
+    let distance = if n + 1.0 <= law.end() {
         to(n + 1.0)
     } else if n >= 1.0 {
         to(n - 1.0)
     } else {
         law.rate(n).abs()
-    }
+    };
+    distance.max(CLOSE * feed_on_a_plane(path))
+}
+
+/// The distance between passes that leaves the residual on a plane, mm.
+fn feed_on_a_plane(path: &Path<'_>) -> f64 {
+    let nose_radius = path.task.tool.nose_radius;
+    (8.0 * nose_radius * path.task.tolerance.residual).sqrt()
 }
 
 /// The upper limit for |φ⁗|, mm/rad⁴: the value for the least step, if there may be seams.
