@@ -109,7 +109,8 @@ pub trait Compensator: Send + Sync {
     /// The largest curvature that [`interference`](Compensator::interference) finds within `region`,
     /// where it is not within `part`: that of
     /// [`curvature_outside`](interference::curvature_outside). `None` from a compensator that looks at
-    /// whole regions alone. The search for the largest nose that fits asks for it once a trial.
+    /// whole regions alone. The search for the largest nose that fits asks for it once a trial, where
+    /// `part` is all within which the curvature is known. So the curvature must not depend on the tool.
     fn curvature_outside(
         &self,
         cut: Cut<'_>,

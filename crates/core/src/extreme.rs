@@ -20,9 +20,16 @@ pub const RADII: usize = 256;
 const CANDIDATES: usize = 24;
 /// How many of these may lie on one radius. A surface of revolution has its crest at every angle.
 const ON_ONE_RADIUS: usize = 8;
-/// Rounds of refinement. A round halves the step of a candidate that has no higher neighbour. Near
-/// a flat maximum, 2⁻²⁰ of a grid step changes the value by less than rounding.
+/// Most rounds of refinement. A round halves the step of a candidate that has no higher neighbour.
 const ROUNDS: usize = 40;
+/// A candidate whose step is this part of a grid step is a maximum. Near a flat one a thousand times as much
+/// changes the value by less than rounding; at a tip the value changes as the step.
+const FINEST: f64 = 1.0 / (1 << 30) as f64;
+/// From this part of a grid step on a candidate may be given up.
+const HOPELESS_FROM: f64 = 0.125;
+/// A candidate is given up if the highest one lies above it by more than this many times the fall to its
+/// lowest neighbour. Where a quantity is concave, it rises within a step by no more than it falls.
+const HOPELESS: f64 = 4.0;
 
 /// The eight neighbours of a point, in steps of the grid.
 const NEIGHBOURS: [(f64, f64); 8] = [
@@ -174,20 +181,25 @@ impl Grid {
         found
     }
 
-    /// Runs a compass search from each candidate. A candidate moves to the best of its eight
-    /// neighbours. If none is better, its step is halved.
+    /// Runs a compass search from each peak of the grid. A candidate moves to the best of its eight
+    /// neighbours. If none is better, its step is halved. The search of a candidate ends at the finest step,
+    /// or where it can no longer become the highest.
     fn refine<const K: usize>(
         &self,
-        mut candidates: Vec<Extreme>,
+        peaks: Vec<Extreme>,
         which: usize,
         measure: &mut Measure<'_, K>,
     ) -> Result<Vec<Extreme>> {
-        let mut scales = vec![0.5; candidates.len()];
+        let mut candidates: Vec<Candidate> = peaks.into_iter().map(Candidate::new).collect();
         let mut values = vec![[f64::NAN; K]; candidates.len() * NEIGHBOURS.len()];
         for _ in 0..ROUNDS {
-            let (theta, rho) = self.neighbours(&candidates, &scales);
-            measure(&theta, &rho, &mut values)?;
-            let tried = theta.iter().zip(&rho).zip(&values);
+            let (theta, rho) = self.neighbours(&candidates);
+            if theta.is_empty() {
+                break;
+            }
+            let values = &mut values[..theta.len()];
+            measure(&theta, &rho, values)?;
+            let tried = theta.iter().zip(&rho).zip(&*values);
             let tried: Vec<Extreme> = tried
                 .map(|((&theta, &rho), values)| Extreme {
                     value: values[which],
@@ -195,31 +207,72 @@ impl Grid {
                     rho,
                 })
                 .collect();
-            let around = tried.chunks(NEIGHBOURS.len());
-            for ((candidate, scale), around) in candidates.iter_mut().zip(&mut scales).zip(around) {
-                let better = around.iter().filter(|tried| tried.value > candidate.value);
-                match better.max_by(|one, other| by_value(one, other)) {
-                    Some(better) => *candidate = *better,
-                    None => *scale *= 0.5,
-                }
+            let searched = candidates.iter_mut().filter(|one| one.is_open);
+            for (candidate, around) in searched.zip(tried.chunks(NEIGHBOURS.len())) {
+                candidate.step_to_best(around);
+            }
+            let values = candidates.iter().map(|candidate| candidate.at.value);
+            let highest = values.fold(f64::NEG_INFINITY, f64::max);
+            for candidate in &mut candidates {
+                candidate.is_open &= !candidate.is_settled(highest);
             }
         }
-        Ok(candidates)
+        Ok(candidates.iter().map(|candidate| candidate.at).collect())
     }
 
-    /// θ and ρ of the eight neighbours of each candidate, at the candidate's own step.
-    fn neighbours(&self, candidates: &[Extreme], scales: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let around = candidates
-            .iter()
-            .zip(scales)
-            .flat_map(|(candidate, scale)| {
-                NEIGHBOURS.iter().map(move |(turn, out)| {
-                    let theta = candidate.theta + turn * scale * self.theta_step;
-                    let rho = candidate.rho + out * scale * self.rho_step;
-                    (theta, rho.clamp(self.region.inner, self.region.outer))
-                })
-            });
+    /// θ and ρ of the eight neighbours of each candidate that is still searched, at its own step.
+    fn neighbours(&self, candidates: &[Candidate]) -> (Vec<f64>, Vec<f64>) {
+        let searched = candidates.iter().filter(|candidate| candidate.is_open);
+        let around = searched.flat_map(|candidate| {
+            NEIGHBOURS.iter().map(move |(turn, out)| {
+                let theta = candidate.at.theta + turn * candidate.step * self.theta_step;
+                let rho = candidate.at.rho + out * candidate.step * self.rho_step;
+                (theta, rho.clamp(self.region.inner, self.region.outer))
+            })
+        });
         around.unzip()
+    }
+}
+
+/// A peak of the grid while the search closes in on it.
+struct Candidate {
+    at: Extreme,
+    /// The distance of the neighbours, in steps of the grid.
+    step: f64,
+    /// How far the lowest neighbour lies below, if no neighbour lies higher.
+    fall: f64,
+    /// Whether it is still searched.
+    is_open: bool,
+}
+
+impl Candidate {
+    fn new(at: Extreme) -> Self {
+        Self {
+            at,
+            step: 0.5,
+            fall: f64::INFINITY,
+            is_open: true,
+        }
+    }
+
+    /// Moves to the best of the neighbours, or halves the step.
+    fn step_to_best(&mut self, around: &[Extreme]) {
+        let better = around.iter().filter(|tried| tried.value > self.at.value);
+        if let Some(better) = better.max_by(|one, other| by_value(one, other)) {
+            self.at = *better;
+            self.fall = f64::INFINITY;
+        } else {
+            let values = around.iter().map(|tried| tried.value);
+            self.fall = self.at.value - values.fold(f64::INFINITY, f64::min);
+            self.step *= 0.5;
+        }
+    }
+
+    /// Whether it is a maximum, or cannot become the highest one.
+    fn is_settled(&self, highest: f64) -> bool {
+        let is_hopeless =
+            self.step <= HOPELESS_FROM && highest - self.at.value > HOPELESS * self.fall;
+        self.step <= FINEST || is_hopeless
     }
 }
 

@@ -42,7 +42,7 @@ impl Trial {
     }
 
     fn fits(&self) -> bool {
-        self.radius * self.at.value <= LARGEST_FIT
+        fits(self.radius, &self.at)
     }
 
     fn largest(&self) -> LargestNose {
@@ -51,6 +51,11 @@ impl Trial {
             at: self.at,
         }
     }
+}
+
+/// Whether a nose of this radius fits where the curvature is largest.
+pub fn fits(radius: f64, at: &Extreme) -> bool {
+    radius * at.value <= LARGEST_FIT
 }
 
 /// The largest radius that fits. The search looks up to `most`; if a nose of that radius fits, the

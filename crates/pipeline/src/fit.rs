@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use turnpath_core::interference::{Extreme, Interference};
-use turnpath_core::largest_nose::{LargestNose, largest_that_fits};
+use turnpath_core::largest_nose::{LargestNose, fits, largest_that_fits};
 use turnpath_core::{
     Compensator, Cut, Overrun, Part, RadialRange, StrategyError, SurfaceModel, Tool, ToolLocus,
 };
@@ -16,6 +16,13 @@ use crate::{Chain, PipelineError, Result};
 /// The largest nose that is tried, in aperture radii. Beyond it the edge is straight for all that
 /// it does to the part.
 const STRAIGHT: f64 = 1e6;
+
+/// The largest curvature within some radii of contact. Larger noses than one that fits touch all that it
+/// touches, and so their trials need not look there again.
+struct KnownCurvature {
+    range: RadialRange,
+    largest: Extreme,
+}
 
 /// A part, its surface and its compensator, on which noses of any radius are tried.
 pub struct Fit<'a> {
@@ -51,12 +58,16 @@ impl<'a> Fit<'a> {
     /// The largest nose that fits, where `on_part` is the largest curvature of the part itself.
     pub fn largest_nose(&self, on_part: Extreme) -> Result<LargestNose> {
         let most = STRAIGHT * self.part.aperture_radius;
+        let mut known = KnownCurvature {
+            range: self.whole_part(),
+            largest: on_part,
+        };
         largest_that_fits(on_part, most, |radius| {
             let tool = Tool {
                 nose_radius: radius,
                 ..self.tool
             };
-            match self.largest_curvature(tool, on_part) {
+            match self.largest_curvature(tool, &mut known) {
                 // The surface ends within the reach of so large a nose, or there is no contact.
                 Err(PipelineError::NoSurface(_) | PipelineError::BadAnswer { .. }) => Ok(Extreme {
                     value: f64::INFINITY,
@@ -67,24 +78,37 @@ impl<'a> Fit<'a> {
         })
     }
 
-    /// The largest curvature where such a tool makes contact, where `on_part` is that of the part itself.
-    fn largest_curvature(&self, tool: Tool, on_part: Extreme) -> Result<Extreme> {
+    /// The largest curvature where such a tool makes contact. What is known then covers its contacts, if
+    /// the tool fits there.
+    fn largest_curvature(&self, tool: Tool, known: &mut KnownCurvature) -> Result<Extreme> {
         let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
         let region = contact_range(self.chain, &locus, &tool, self.range(tool)?)?;
         let cut = Cut {
             surface: self.surface.as_ref(),
             tool: &tool,
         };
-        let part = self.whole_part();
-        let outside = self.compensator.curvature_outside(cut, part, region);
-        match outside.map_err(|error| self.failed_check(error))? {
-            None => Ok(self.interference(tool, region)?.curvature),
-            // The part covers the region.
-            Some(nowhere) if nowhere.value == f64::NEG_INFINITY => Ok(on_part),
-            Some(outside) if !is_finite(&outside) => Err(self.no_numbers(outside)),
-            Some(outside) if outside.value > on_part.value => Ok(outside),
-            Some(_) => Ok(on_part),
+        let outside = self
+            .compensator
+            .curvature_outside(cut, known.range, region)
+            .map_err(|error| self.failed_check(error))?;
+        let largest = match outside {
+            None => return Ok(self.interference(tool, region)?.curvature),
+            // What is known covers the region.
+            Some(nowhere) if nowhere.value == f64::NEG_INFINITY => known.largest,
+            Some(outside) if !is_finite(&outside) => return Err(self.no_numbers(outside)),
+            Some(outside) if outside.value > known.largest.value => outside,
+            Some(_) => known.largest,
+        };
+        if fits(tool.nose_radius, &largest) {
+            *known = KnownCurvature {
+                range: RadialRange {
+                    inner: known.range.inner.min(region.inner),
+                    outer: known.range.outer.max(region.outer),
+                },
+                largest,
+            };
         }
+        Ok(largest)
     }
 
     /// The range of ρ over which the path of such a tool runs.

@@ -72,9 +72,14 @@ pub fn sample_path(
         .transpose()?;
     let mut sample = PathSample::default();
     let block = |stratum: &Stratum| {
+        let points = block(&plan, stratum.chosen, &depths)?;
+        let whole = match plan.is_last(stratum.chosen) {
+            true => 1.0,
+            false => share_of_whole_steps(&points.c),
+        };
         Ok(SampledBlock {
-            points: block(&plan, stratum.chosen, &depths)?,
-            stands_for: stratum.stands_for(&plan),
+            points,
+            stands_for: whole * stratum.stands_for(&plan),
         })
     };
     sample.blocks = one_at_a_time(strata.par_iter().map(block))?;
@@ -140,6 +145,19 @@ fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<PathBlock> 
     Ok(points.unwrap_or_default())
 }
 
+/// How many steps of the sampler a block has, over its segments. The border of a small block cuts its last
+/// step off, and in the path there are fewer borders.
+fn share_of_whole_steps(c: &[f64]) -> f64 {
+    let segments = c.len().saturating_sub(1) as f64;
+    match c {
+        [.., first, middle, end] if middle > first => {
+            let part = (end - middle) / (middle - first);
+            (segments - 1.0 + part.min(1.0)) / segments
+        }
+        _ => 1.0,
+    }
+}
+
 fn last_two(points: &PathBlock) -> Option<[ControlPoint; 2]> {
     let count = points.len();
     Some([
@@ -151,6 +169,15 @@ fn last_two(points: &PathBlock) -> Option<[ControlPoint; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_step_that_the_border_cuts_off_counts_as_its_part() {
+        assert_eq!(share_of_whole_steps(&[0.0, 1.0, 2.0, 2.25]), 2.25 / 3.0);
+        assert_eq!(share_of_whole_steps(&[0.0, 1.0, 2.0, 3.0]), 1.0);
+        assert_eq!(share_of_whole_steps(&[0.0, 1.0, 2.0, 4.0]), 1.0);
+        assert_eq!(share_of_whole_steps(&[0.0, 1.0]), 1.0);
+        assert_eq!(share_of_whole_steps(&[]), 1.0);
+    }
 
     #[test]
     fn each_block_has_one_that_stands_for_it() {
