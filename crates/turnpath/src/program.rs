@@ -4,9 +4,9 @@ use std::cell::RefCell;
 use std::path::Path;
 
 use turnpath_core::Params;
-use turnpath_core::toolpath::{PathBlock, Section, SectionBlock, SegmentShape};
+use turnpath_core::toolpath::{Section, SectionBlock, SegmentShape};
 use turnpath_host::sha256_hex;
-use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, Stage};
+use turnpath_pipeline::{Estimate, Leads, Observer, Outcome, PathSample, SampledBlock, Stage};
 use turnpath_post::{
     Amount, FeedMeaning, Layout, Lines, MEMORY, PLACEHOLDERS, PartLimits, PartName, PartNumbers,
     PartsError, Post, ProgramError, ReadPath, SEGMENTS_PER_SECOND, SPLIT, Template, TextSize,
@@ -132,7 +132,7 @@ impl Program {
         };
         let size = lines.and(self.frame_size());
         for block in &sample.blocks {
-            let rate = self.sampled_rate(&block.points)?;
+            let rate = self.sampled_rate(block)?;
             self.carried(rate.within(self.segments_per_second))?;
         }
         self.refuse_large(size)?;
@@ -156,16 +156,17 @@ impl Program {
     }
 
     /// How many segments of a sampled block the controller has to read in a second.
-    fn sampled_rate(&self, points: &PathBlock) -> Result<SegmentRate, NotCarried> {
+    fn sampled_rate(&self, block: &SampledBlock) -> Result<SegmentRate, NotCarried> {
         let stretch = SectionBlock {
             section: Section::Cutting,
             opens_section: false,
             before: &[],
-            points,
+            points: &block.points,
         };
         let mut rate = SegmentRate::default();
         let carried = self.carried(self.layout.carried(&stretch))?;
         carried.points.points().for_each(|point| rate.pass(&point));
+        rate.go_on(block.stands_for);
         Ok(rate)
     }
 

@@ -37,6 +37,20 @@ impl SegmentRate {
         }
     }
 
+    /// Counts what comes if a path goes on as so far, for so many times its time: a sample is shorter than a
+    /// second, and its path may be longer.
+    pub fn go_on(&mut self, times: f64) {
+        let (Some(first), Some(last)) = (self.times.front(), self.times.back()) else {
+            return;
+        };
+        let (passed, segments) = (last - first, self.times.len() - 1);
+        let time = WINDOW.min(passed * times);
+        if passed > 0.0 && passed < time {
+            let expected = segments as f64 * time / passed;
+            self.most = self.most.max(expected as u64);
+        }
+    }
+
     /// Refuses a path with more segments in a second than a controller reads.
     ///
     /// # Errors
@@ -57,6 +71,21 @@ impl SegmentRate {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_part_of_a_second_goes_on_as_it_is_for_as_long_as_it_stands_for() {
+        for (times, expected) in [(1.0, 11), (2.0, 20), (5.0, 50), (100.0, 50)] {
+            let mut rate = SegmentRate::default();
+            for number in 0..11 {
+                rate.pass(&ControlPoint {
+                    t: 3.0 + 0.02 * f64::from(number),
+                    ..ControlPoint::default()
+                });
+            }
+            rate.go_on(times);
+            assert!(rate.most.abs_diff(expected) <= 1, "{times}: {}", rate.most);
+        }
+    }
 
     #[test]
     fn the_busiest_second_is_found_with_its_place() {
