@@ -243,11 +243,28 @@ impl PiecewisePolynomial {
     pub fn values(&self, n: &[f64], values: &mut [f64]) {
         match self.line_around(n) {
             Some(line) => in_widest(LineValues { line, n, values }),
-            None => {
-                let each = values.iter_mut().zip(n);
-                each.for_each(|(value, n)| *value = self.value(*n));
-            }
+            None => self.values_along(n, values),
         }
+    }
+
+    /// The values at places most of which lie in the piece of the one before.
+    fn values_along(&self, n: &[f64], values: &mut [f64]) {
+        let mut known: Option<(&Piece, f64)> = None;
+        for (value, n) in values.iter_mut().zip(n) {
+            let here = known.filter(|(piece, end)| piece.start <= *n && n < end);
+            known = here.or_else(|| self.piece_and_end(*n));
+            *value = known.map_or(f64::NAN, |(piece, _)| piece.value(*n));
+        }
+    }
+
+    /// The piece at `n`, and where the next one begins.
+    fn piece_and_end(&self, n: f64) -> Option<(&Piece, f64)> {
+        let next = self.pieces.partition_point(|piece| piece.start <= n);
+        let end = self
+            .pieces
+            .get(next.max(1))
+            .map_or(f64::INFINITY, |next| next.start);
+        Some((self.pieces.get(next.saturating_sub(1))?, end))
     }
 
     /// The rates at all these places: those that [`rate`](Self::rate) gives one by one. `rates` has the

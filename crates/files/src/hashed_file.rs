@@ -4,6 +4,7 @@ use std::fmt;
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::thread;
 
 use sha2::{Digest, Sha256};
 use twox_hash::xxhash3_128;
@@ -88,25 +89,41 @@ impl HashedFile {
         }
     }
 
-    /// Brings the file to the disk, closes it, and compares what it has with what was written.
+    /// Brings the file to the disk, and compares what it has with what was written. It is read while the disk
+    /// takes it: what reads back is the same before and after.
     pub fn finish(self) -> io::Result<Contents> {
         let Self {
             file,
             path,
             written,
         } = self;
-        perform(Operation::Sync, &path, || file.sync_all())?;
-        drop(file);
-        let (mut sum, mut found) = (Sum::default(), xxhash3_128::Hasher::new());
-        for_each_piece(&path, |piece| {
-            sum.add(piece);
-            found.write(piece);
-        })?;
-        match written.finish_128() == found.finish_128() {
-            true => Ok(sum.contents()),
+        let sync = || perform(Operation::Sync, &path, || file.sync_all());
+        let found = thread::scope(|scope| {
+            let Ok(syncing) = thread::Builder::new().spawn_scoped(scope, sync) else {
+                sync()?;
+                return read_back(&path);
+            };
+            let found = read_back(&path);
+            let synced = syncing.join();
+            synced.unwrap_or_else(|_| Err(io::Error::other("it was not brought to the disk")))?;
+            found
+        });
+        let (contents, sum) = found?;
+        match written.finish_128() == sum {
+            true => Ok(contents),
             false => Err(io::Error::other("it does not read back as it was written")),
         }
     }
+}
+
+/// What a file has, and its fast sum.
+fn read_back(path: &Path) -> io::Result<(Contents, u128)> {
+    let (mut sum, mut found) = (Sum::default(), xxhash3_128::Hasher::new());
+    for_each_piece(path, |piece| {
+        sum.add(piece);
+        found.write(piece);
+    })?;
+    Ok((sum.contents(), found.finish_128()))
 }
 
 impl fmt::Debug for HashedFile {

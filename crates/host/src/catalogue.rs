@@ -155,6 +155,12 @@ impl Catalogue {
         if libraries.is_empty() {
             return Ok(());
         }
+        if !self.admissions.is_empty() {
+            // Another process waits for the copies, and nobody for the hashes. What goes wrong comes again.
+            libraries
+                .par_iter()
+                .for_each(|library| _ = library.loadable());
+        }
         let admit = |admission: &Arc<dyn Admission>| admission.admit(&libraries);
         // An admission may wait for another process.
         let (admitted, ()) = rayon::join(

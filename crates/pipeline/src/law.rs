@@ -16,6 +16,8 @@ use crate::{Chain, Result};
 
 /// Angles of a revolution at which each turn must lie beyond the one before.
 const CHECKED_ANGLES: usize = 72;
+/// Positions at which a law is evaluated together.
+const TOGETHER: u64 = 1024;
 /// Largest jump of ρ where two pieces meet, mm: a nanometre, far above rounding.
 const LARGEST_JUMP: f64 = 1e-6;
 /// How much of the range a law may leave uncovered at either end, mm.
@@ -118,6 +120,9 @@ struct SpiralCheck {
     allowed: std::ops::RangeInclusive<f64>,
     ring: Vec<f64>,
     next: u64,
+    /// Revolutions at which the law is checked together, and its values there.
+    n: Vec<f64>,
+    rho: Vec<f64>,
 }
 
 impl SpiralCheck {
@@ -132,6 +137,8 @@ impl SpiralCheck {
             allowed: inner - beyond..=outer + beyond,
             ring: Vec::with_capacity(CHECKED_ANGLES),
             next: 0,
+            n: Vec::new(),
+            rho: Vec::new(),
         }
     }
 
@@ -143,12 +150,18 @@ impl SpiralCheck {
             ));
         }
         while !law.pieces().is_empty() {
-            let n = self.next as f64 / CHECKED_ANGLES as f64;
-            if n > law.end() {
+            let n = (self.next..self.next + TOGETHER).map(|i| i as f64 / CHECKED_ANGLES as f64);
+            self.n.clear();
+            self.n.extend(n.take_while(|n| *n <= law.end()));
+            if self.n.is_empty() {
                 break;
             }
-            self.check(n, law.value(n))?;
-            self.next += 1;
+            self.rho.resize(self.n.len(), f64::NAN);
+            law.values(&self.n, &mut self.rho);
+            for i in 0..self.n.len() {
+                self.check(self.n[i], self.rho[i])?;
+                self.next += 1;
+            }
         }
         Ok(())
     }

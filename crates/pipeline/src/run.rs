@@ -144,7 +144,9 @@ impl<'a> PathRun<'a> {
         if options.refine {
             plan.hold_nodes();
         }
-        let nodes = nodes_per_revolution(&plan)?;
+        // The leads and the first block wait for the second one.
+        let (nodes, ()) = rayon::join(|| nodes_per_revolution(&plan), || plan.sample_ahead(1));
+        let nodes = nodes?;
         Ok(Self {
             estimate: Estimate::of(&plan, nodes)?,
             batch: batch_size(&plan, nodes),

@@ -8,6 +8,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlannerScalar};
 
@@ -20,6 +21,8 @@ const RATES: usize = 4 * WINDOW;
 /// The fewest turns after which arms come back to an angle. Finer ones are as fine as the marks of the
 /// tool.
 const FEWEST_TURNS: usize = 4;
+/// Turns whose harmonics a thread finds at least.
+const TOGETHER: usize = 8;
 
 /// The largest spiral arms of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,18 +44,30 @@ pub struct SpiralArms {
 pub(super) struct Arms {
     of_turn: RealTransform,
     over_turns: Arc<dyn Fft<f64>>,
-    /// Those of each turn of the window; empty for a turn that lies in part beside the part.
+    /// Those of each turn of the window.
     turns: VecDeque<TurnHarmonics>,
     largest: Option<SpiralArms>,
 }
 
-/// The harmonics of one turn from the lowest on.
+/// The harmonics of one turn from the lowest on; empty for a turn that lies in part beside the part.
 #[derive(Clone, Default)]
-struct TurnHarmonics {
+pub(super) struct TurnHarmonics {
     /// F_k, mm.
     values: Vec<Complex<f64>>,
     /// |F_k|², mm².
     squares: Vec<f64>,
+}
+
+impl TurnHarmonics {
+    fn of(transform: &mut RealTransform, turn: &&Turn) -> Self {
+        if turn.errors.iter().any(|error| error.is_nan()) {
+            return Self::default();
+        }
+        let mut values = Vec::with_capacity(HIGHEST + 1 - LOWEST);
+        transform.harmonics(&turn.errors, &mut values);
+        let squares = values.iter().map(|value| value.norm_sqr()).collect();
+        Self { values, squares }
+    }
 }
 
 impl Default for Arms {
@@ -69,21 +84,19 @@ impl Default for Arms {
 }
 
 impl Arms {
-    /// Adds the path's next turn, which is whole.
-    pub(super) fn include(&mut self, turn: &Turn) {
-        let oldest = match self.turns.len() {
-            WINDOW => self.turns.pop_front(),
-            _ => None,
-        };
-        let mut harmonics = oldest.unwrap_or_default();
-        let TurnHarmonics { values, squares } = &mut harmonics;
-        values.clear();
-        if turn.errors.iter().all(|error| !error.is_nan()) {
-            self.of_turn.harmonics(&turn.errors, values);
+    /// Adds the path's next turn, which is whole, by its harmonics.
+    pub(super) fn include(&mut self, harmonics: TurnHarmonics) {
+        if self.turns.len() == WINDOW {
+            self.turns.pop_front();
         }
-        squares.clear();
-        squares.extend(values.iter().map(|value| value.norm_sqr()));
         self.turns.push_back(harmonics);
+    }
+
+    /// The harmonics of whole turns. Threads that have nothing else to do take a part of them.
+    pub(super) fn harmonics(&self, turns: &[&Turn]) -> Vec<TurnHarmonics> {
+        let each = turns.par_iter().with_min_len(TOGETHER);
+        let each = each.map_init(|| self.of_turn.clone(), TurnHarmonics::of);
+        each.collect()
     }
 
     /// Looks for larger arms on the turns of the window, whose contacts lie between two radii.

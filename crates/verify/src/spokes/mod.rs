@@ -146,19 +146,28 @@ impl Default for Spokes {
 impl Spokes {
     /// Appends the path's next block.
     pub fn append(&mut self, next: BlockSpokes) {
-        for turn in next.turns {
-            match self.window.back_mut() {
-                Some(last) if last.number == turn.number => last.join(&turn),
-                _ => self.push(turn),
+        let mut turns = next.turns;
+        let last = self.window.back_mut();
+        if let (Some(last), Some(first)) = (last, turns.first())
+            && last.number == first.number
+        {
+            last.join(&turns.remove(0));
+        }
+        // All but the last one are whole now.
+        let all: Vec<&Turn> = self.window.back().into_iter().chain(&turns).collect();
+        let (_, whole) = all.split_last().unzip();
+        let harmonics = self.arms.harmonics(whole.unwrap_or_default());
+        let mut harmonics = harmonics.into_iter();
+        for turn in turns {
+            if !self.window.is_empty() {
+                self.arms.include(harmonics.next().unwrap_or_default());
             }
+            self.push(turn);
         }
     }
 
-    /// Begins the path's next turn: the one before is whole.
+    /// Begins the path's next turn: the one before is whole, and the arms have it.
     fn push(&mut self, turn: Turn) {
-        if let Some(last) = self.window.back() {
-            self.arms.include(last);
-        }
         if self.until_next == 0 {
             self.arms.look(self.radii());
             let amplitudes = self.amplitudes();
@@ -181,7 +190,8 @@ impl Spokes {
     /// The largest spiral arms so far; `None` on a path of a few turns.
     pub fn largest_arms(&self) -> Option<SpiralArms> {
         let mut arms = self.arms.clone();
-        arms.include(self.window.back()?);
+        let last = arms.harmonics(&[self.window.back()?]);
+        last.into_iter().for_each(|turn| arms.include(turn));
         arms.look(self.radii());
         arms.largest()
     }
