@@ -107,17 +107,17 @@ pub trait Compensator: Send + Sync {
     }
 
     /// The largest curvature that [`interference`](Compensator::interference) finds within `region`,
-    /// where it is not within `part`: that of
+    /// where it is not within `known`: that of
     /// [`curvature_outside`](interference::curvature_outside). `None` from a compensator that looks at
-    /// whole regions alone. The search for the largest nose that fits asks for it once a trial, where
-    /// `part` is all within which the curvature is known. So the curvature must not depend on the tool.
+    /// whole regions alone. The search for the largest nose that fits asks for it once a trial. `known`
+    /// is then all that smaller noses have touched, so the curvature must not depend on the tool.
     fn curvature_outside(
         &self,
         cut: Cut<'_>,
-        part: RadialRange,
+        known: RadialRange,
         region: RadialRange,
     ) -> Result<Option<Extreme>> {
-        let _ = (cut, part, region);
+        let _ = (cut, known, region);
         Ok(None)
     }
 }

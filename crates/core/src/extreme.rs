@@ -22,10 +22,11 @@ const CANDIDATES: usize = 24;
 const ON_ONE_RADIUS: usize = 8;
 /// Most rounds of refinement. A round halves the step of a candidate that has no higher neighbour.
 const ROUNDS: usize = 40;
-/// A candidate whose step is this part of a grid step is a maximum. Near a flat one a thousand times as much
-/// changes the value by less than rounding; at a tip the value changes as the step.
-const FINEST: f64 = 1.0 / (1 << 30) as f64;
-/// From this part of a grid step on a candidate may be given up.
+/// A candidate whose step is this part of a grid step is a maximum. At a tip the value is then right to some
+/// 1e-10 of the rise over a grid step. Near a flat maximum it is right much sooner.
+const FINEST: f64 = 1.0 / (1_u64 << 34) as f64;
+/// A candidate whose next step is this part of a grid step may be given up. So it has been compared with
+/// places half a grid step and a quarter away.
 const HOPELESS_FROM: f64 = 0.125;
 /// A candidate is given up if the highest one lies above it by more than this many times the fall to its
 /// lowest neighbour. Where a quantity is concave, it rises within a step by no more than it falls.

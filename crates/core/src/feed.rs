@@ -65,8 +65,8 @@ pub trait FeedPlan: Send {
     /// leaves an end alone if the law closes there by itself: at every angle, the law's outermost
     /// pass lies beyond the end of the range, or inside of it by at most 0.41 of the distance to
     /// the next pass. The run-out adds up to 0.6 turns at each end, and these turns rotate the rest
-    /// of the law against the part. A law that follows the angle must therefore close by itself,
-    /// also at N = 0: begin with a turn that hardly leaves the end of the range, let the feed grow
-    /// over the turns that follow, and continue until the slowest angle has passed the other end.
+    /// of the law against the part. A law that begins at rest is not rotated: it waits for one whole
+    /// turn instead. So a law that follows the angle should begin at rest, let the feed grow over the
+    /// turns that follow, and continue until the slowest angle has passed the other end.
     fn extend(&mut self, setup: Setup<'_>, pieces: &mut Vec<FeedPiece>) -> Result<Continuation>;
 }

@@ -259,12 +259,10 @@ impl PiecewisePolynomial {
 
     /// The piece at `n`, and where the next one begins.
     fn piece_and_end(&self, n: f64) -> Option<(&Piece, f64)> {
-        let next = self.pieces.partition_point(|piece| piece.start <= n);
-        let end = self
-            .pieces
-            .get(next.max(1))
-            .map_or(f64::INFINITY, |next| next.start);
-        Some((self.pieces.get(next.saturating_sub(1))?, end))
+        let index = self.index_after(n);
+        let next = self.pieces.get(index + 1);
+        let end = next.map_or(f64::INFINITY, |next| next.start);
+        Some((self.pieces.get(index)?, end))
     }
 
     /// The rates at all these places: those that [`rate`](Self::rate) gives one by one. `rates` has the
@@ -321,8 +319,13 @@ impl PiecewisePolynomial {
     }
 
     fn piece_after(&self, n: f64) -> Option<&Piece> {
+        self.pieces.get(self.index_after(n))
+    }
+
+    /// The number of the piece at `n`. The first one begins before all places.
+    fn index_after(&self, n: f64) -> usize {
         let next = self.pieces.partition_point(|piece| piece.start <= n);
-        self.pieces.get(next.saturating_sub(1))
+        next.saturating_sub(1)
     }
 }
 

@@ -89,15 +89,17 @@ impl HashedFile {
         }
     }
 
-    /// Brings the file to the disk, and compares what it has with what was written. It is read while the disk
-    /// takes it: what reads back is the same before and after.
+    /// Brings the file to the disk, and compares what it has with what was written. The file is read while the
+    /// disk takes it, since the system answers the reading from its memory either way.
     pub fn finish(self) -> io::Result<Contents> {
         let Self {
             file,
             path,
             written,
         } = self;
-        let sync = || perform(Operation::Sync, &path, || file.sync_all());
+        // Operations are announced by one thread, in one order.
+        perform(Operation::Sync, &path, || Ok(()))?;
+        let sync = || uninterrupted(|| file.sync_all());
         let found = thread::scope(|scope| {
             let Ok(syncing) = thread::Builder::new().spawn_scoped(scope, sync) else {
                 sync()?;
@@ -112,6 +114,16 @@ impl HashedFile {
         match written.finish_128() == sum {
             true => Ok(contents),
             false => Err(io::Error::other("it does not read back as it was written")),
+        }
+    }
+}
+
+/// Does this again as often as a signal interrupts it.
+fn uninterrupted(act: impl Fn() -> io::Result<()>) -> io::Result<()> {
+    loop {
+        match act() {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            done => return done,
         }
     }
 }

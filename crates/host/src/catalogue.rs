@@ -156,7 +156,7 @@ impl Catalogue {
             return Ok(());
         }
         if !self.admissions.is_empty() {
-            // Another process waits for the copies, and nobody for the hashes. What goes wrong comes again.
+            // A trial waits for the copies. An error is met again when the library is loaded.
             libraries
                 .par_iter()
                 .for_each(|library| _ = library.loadable());

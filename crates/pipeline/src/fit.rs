@@ -99,11 +99,13 @@ impl<'a> Fit<'a> {
             Some(outside) if outside.value > known.largest.value => outside,
             Some(_) => known.largest,
         };
-        if fits(tool.nose_radius, &largest) {
+        let known_range = known.range;
+        let they_meet = region.inner <= known_range.outer && known_range.inner <= region.outer;
+        if they_meet && fits(tool.nose_radius, &largest) {
             *known = KnownCurvature {
                 range: RadialRange {
-                    inner: known.range.inner.min(region.inner),
-                    outer: known.range.outer.max(region.outer),
+                    inner: known_range.inner.min(region.inner),
+                    outer: known_range.outer.max(region.outer),
                 },
                 largest,
             };

@@ -4,6 +4,8 @@
 //! A piece takes 56 bytes. A law with one feed for each radius has some hundred pieces, whatever
 //! the part. A law that changes with the angle has some pieces for every revolution.
 
+use std::mem;
+
 use turnpath_core::{
     Continuation, Direction, FeedPiece, Locus, RadialRange, Setup, SpiralLaw, Task,
 };
@@ -16,8 +18,8 @@ use crate::{Chain, Result};
 
 /// Angles of a revolution at which each turn must lie beyond the one before.
 const CHECKED_ANGLES: usize = 72;
-/// Positions at which a law is evaluated together.
-const TOGETHER: u64 = 1024;
+/// Positions at which a law is evaluated in one call. More of them take more memory, and fewer more calls.
+const POSITIONS: u64 = 1024;
 /// Largest jump of ρ where two pieces meet, mm: a nanometre, far above rounding.
 const LARGEST_JUMP: f64 = 1e-6;
 /// How much of the range a law may leave uncovered at either end, mm.
@@ -150,7 +152,7 @@ impl SpiralCheck {
             ));
         }
         while !law.pieces().is_empty() {
-            let n = (self.next..self.next + TOGETHER).map(|i| i as f64 / CHECKED_ANGLES as f64);
+            let n = (self.next..self.next + POSITIONS).map(|i| i as f64 / CHECKED_ANGLES as f64);
             self.n.clear();
             self.n.extend(n.take_while(|n| *n <= law.end()));
             if self.n.is_empty() {
@@ -158,10 +160,12 @@ impl SpiralCheck {
             }
             self.rho.resize(self.n.len(), f64::NAN);
             law.values(&self.n, &mut self.rho);
-            for i in 0..self.n.len() {
-                self.check(self.n[i], self.rho[i])?;
+            let (places, values) = (mem::take(&mut self.n), mem::take(&mut self.rho));
+            for (n, rho) in places.iter().zip(&values) {
+                self.check(*n, *rho)?;
                 self.next += 1;
             }
+            (self.n, self.rho) = (places, values);
         }
         Ok(())
     }

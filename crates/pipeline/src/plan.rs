@@ -21,9 +21,9 @@ pub const BLOCK: f64 = 64.0;
 /// bounded on the finest paths. The choice depends on the task alone, so the bytes do not depend on
 /// the machine.
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
-/// Nodes of a block that is one of a sample, at least; a revolution may have more. With four times as many
-/// the estimate of the recipes of the documentation errs by up to 1.6 % in place of 3.2 %, and `check` takes
-/// up to 1.6 times as long.
+/// Nodes of a block that is one of a sample, at least; a revolution may have more. With 60 of them estimates
+/// for the recipes of the documentation err by up to 3.2 %. With 250 they err by up to 1.6 %, and `check`
+/// takes up to 1.6 times as long.
 const SAMPLED_BLOCK: f64 = 60.0;
 /// Most numbers for nodes that are held in memory while a path is planned, refined and written: 160
 /// MB. A node on the path takes one, and a node beside it three. The sampler of a longer path is asked

@@ -16,7 +16,7 @@ use crate::{Chain, Preparation, Result, schedule};
 
 /// About how many blocks are made. The count of points on a revolution changes smoothly along a path,
 /// but what refinement adds does not: with eight places the table of one recipe of the documentation was
-/// a tenth too small, with sixteen it is right to a thousandth. More places cost time.
+/// a tenth too small. More places cost time.
 const SAMPLED_BLOCKS: usize = 16;
 
 /// Some blocks of a path, refined, and its leads.
@@ -35,12 +35,20 @@ pub struct SampledBlock {
     pub points: PathBlock,
     /// Revolutions of the path that it stands for, over its own.
     pub stands_for: f64,
+    /// Steps of the sampler over segments. The border of a block that was made small for the sample cuts its last
+    /// step off.
+    pub whole_steps: f64,
 }
 
 impl SampledBlock {
-    /// Segments of the blocks that it stands for.
+    /// How many times its own segments the path has where it stands for it.
+    pub fn segments_for_each(&self) -> f64 {
+        self.stands_for * self.whole_steps
+    }
+
+    /// Segments of the path that it stands for.
     fn segments(&self) -> f64 {
-        self.points.len().saturating_sub(1) as f64 * self.stands_for
+        self.points.len().saturating_sub(1) as f64 * self.segments_for_each()
     }
 }
 
@@ -56,7 +64,9 @@ pub fn sample_path(
     let observer = &SilentObserver;
     let mut plan = schedule::plan(chain, preparation, observer)?;
     plan.time_steps = options.time_steps;
+    let whole_block = plan.block();
     plan.divide_for_sample();
+    let are_cut = plan.block() < whole_block;
     let strata = strata(plan.blocks());
     let chosen: Vec<usize> = strata.iter().map(|stratum| stratum.chosen).collect();
     let depths = match options.refine {
@@ -73,13 +83,14 @@ pub fn sample_path(
     let mut sample = PathSample::default();
     let block = |stratum: &Stratum| {
         let points = block(&plan, stratum.chosen, &depths)?;
-        let whole = match plan.is_last(stratum.chosen) {
-            true => 1.0,
-            false => share_of_whole_steps(&points.c),
+        let whole_steps = match are_cut && !plan.is_last(stratum.chosen) {
+            true => share_of_whole_steps(&points.c),
+            false => 1.0,
         };
         Ok(SampledBlock {
             points,
-            stands_for: whole * stratum.stands_for(&plan),
+            stands_for: stratum.stands_for(&plan),
+            whole_steps,
         })
     };
     sample.blocks = one_at_a_time(strata.par_iter().map(block))?;

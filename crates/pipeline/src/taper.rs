@@ -358,9 +358,23 @@ mod tests {
         let mut law = SpiralLaw::new();
         law.push(1.0, quintic([1.0, 0.0, 0.0], [1.1, 0.1, 0.0], 1.0));
         law.push(9.0, [1.1, 0.1, 0.0, 0.0, 0.0, 0.0]);
-        let held = taper(&law, &task(&law)).law;
+        let CutLaw { law: held, own } = taper(&law, &task(&law));
+        assert_eq!(own, Some([1.0, held.end() - TURNS]));
         assert_eq!(held.value(1.0), 1.0);
         assert!((held.value(4.0) - law.value(3.0)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_law_at_rest_at_its_end_is_held_there_until_its_passes_close() {
+        let mut law = SpiralLaw::new();
+        law.push(9.0, [1.0, 0.1, 0.0, 0.0, 0.0, 0.0]);
+        law.push(1.0, quintic([1.9, 0.1, 0.0], [2.0, 0.0, 0.0], 1.0));
+        let CutLaw { law: held, own } = taper(&law, &task(&law));
+        assert_eq!(own, Some([TURNS, held.end() - HOLD_AFTER]));
+        let last_turn = (0..ANGLES).map(|i| held.end() - i as f64 / ANGLES as f64);
+        for n in last_turn {
+            assert!(2.0 - held.value(n) < 0.032, "{n}");
+        }
     }
 
     /// A law that follows the angle goes on until its slowest angle has passed the rim.

@@ -3,7 +3,7 @@
 use turnpath_core::fit::{LADDER, STENCIL, evaluate, fit, steps};
 use turnpath_core::{
     CentreBuffers, CentreSeries, Compensator, Cut, Locus, ORDER, Radial, RadialRange, Rates,
-    Result as Answer, Series,
+    Result as Answer, Series, Tool,
 };
 use turnpath_verify::Touch;
 
@@ -257,7 +257,8 @@ fn at_once(chain: &TrialChain, points: &[OnPart]) -> Result<(), FaultKind> {
     Ok(())
 }
 
-/// The largest curvature outside a part of the region is that of the interference check there.
+/// The largest curvature outside a part of the region is that of the interference check there, with the nose
+/// of the task and with one of half its radius.
 fn outside(chain: &TrialChain) -> Result<(), FaultKind> {
     let RadialRange { inner, outer } = chain.task().range;
     let region = RadialRange {
@@ -270,22 +271,39 @@ fn outside(chain: &TrialChain) -> Result<(), FaultKind> {
         ..region
     };
     let ring = RadialRange { inner: half, outer };
-    let asked = compensator(chain).curvature_outside(cut(chain), part, region);
-    let Some(found) = asked.map_err(failed("curvature_outside"))? else {
-        return Ok(());
-    };
     let checked = compensator(chain).interference(cut(chain), ring);
     let checked = checked.map_err(failed("interference"))?.curvature.value;
-    // The comparison also fails for what is no number.
-    if (found.value - checked).abs() <= CURVATURE_GAP * checked.abs() {
-        return Ok(());
+    for (part_of_radius, when) in [
+        (1.0, "as an answer of `curvature_outside`"),
+        (
+            0.5,
+            "from `curvature_outside` for a nose of half the radius",
+        ),
+    ] {
+        let tool = Tool {
+            nose_radius: part_of_radius * chain.task().tool.nose_radius,
+            ..chain.task().tool
+        };
+        let cut = Cut {
+            tool: &tool,
+            ..cut(chain)
+        };
+        let asked = compensator(chain).curvature_outside(cut, part, region);
+        let Some(found) = asked.map_err(failed("curvature_outside"))? else {
+            return Ok(());
+        };
+        // The comparison also fails for what is no number.
+        if (found.value - checked).abs() <= CURVATURE_GAP * checked.abs() {
+            continue;
+        }
+        return Err(FaultKind::Repeat {
+            what: format!("the largest curvature beyond ρ = {half} mm"),
+            when,
+            first: checked,
+            second: found.value,
+        });
     }
-    Err(FaultKind::Repeat {
-        what: format!("the largest curvature beyond ρ = {half} mm"),
-        when: "as an answer of `curvature_outside`",
-        first: checked,
-        second: found.value,
-    })
+    Ok(())
 }
 
 /// The exact rates against those of the host's fit of centres.

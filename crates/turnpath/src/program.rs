@@ -166,7 +166,7 @@ impl Program {
         let mut rate = SegmentRate::default();
         let carried = self.carried(self.layout.carried(&stretch))?;
         carried.points.points().for_each(|point| rate.pass(&point));
-        rate.go_on(block.stands_for);
+        rate.extrapolate(block.stands_for, block.whole_steps);
         Ok(rate)
     }
 

@@ -37,16 +37,16 @@ impl SegmentRate {
         }
     }
 
-    /// Counts what comes if a path goes on as so far, for so many times its time: a sample is shorter than a
-    /// second, and its path may be longer.
-    pub fn go_on(&mut self, times: f64) {
+    /// Counts the segments of a second from a sample that is shorter. The path goes on like the sample, for so
+    /// many times its time. A part of the segments are whole steps: the others end where the sample does.
+    pub fn extrapolate(&mut self, times: f64, whole_steps: f64) {
         let (Some(first), Some(last)) = (self.times.front(), self.times.back()) else {
             return;
         };
         let (passed, segments) = (last - first, self.times.len() - 1);
         let time = WINDOW.min(passed * times);
         if passed > 0.0 && passed < time {
-            let expected = segments as f64 * time / passed;
+            let expected = segments as f64 * whole_steps * time / passed;
             self.most = self.most.max(expected as u64);
         }
     }
@@ -73,17 +73,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_part_of_a_second_goes_on_as_it_is_for_as_long_as_it_stands_for() {
-        for (times, expected) in [(1.0, 11), (2.0, 20), (5.0, 50), (100.0, 50)] {
+    fn a_sample_that_is_shorter_than_a_second_counts_as_what_it_stands_for() {
+        // Ten steps of 19 ms, and the first 5 ms of one that the end cuts off.
+        let ends = (0..11)
+            .map(|number| 0.02 * f64::from(number))
+            .chain([0.205]);
+        for (times, expected) in [(1.0, 12), (2.0, 20), (4.0, 41), (100.0, 52)] {
             let mut rate = SegmentRate::default();
-            for number in 0..11 {
+            for end in ends.clone() {
                 rate.pass(&ControlPoint {
-                    t: 3.0 + 0.02 * f64::from(number),
+                    t: 3.0 + end,
                     ..ControlPoint::default()
                 });
             }
-            rate.go_on(times);
-            assert!(rate.most.abs_diff(expected) <= 1, "{times}: {}", rate.most);
+            rate.extrapolate(times, (10.0 + 5.0 / 19.0) / 11.0);
+            assert_eq!(rate.most, expected, "{times}");
         }
     }
 

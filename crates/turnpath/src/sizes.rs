@@ -40,7 +40,7 @@ pub fn sampled_bytes<E>(
     };
     let mut sum = 0.0;
     for block in &sample.blocks {
-        sum += block.stands_for * stretch(Section::Cutting, &block.points, true)?;
+        sum += block.segments_for_each() * stretch(Section::Cutting, &block.points, true)?;
     }
     for (section, points) in &sample.leads {
         sum += stretch(*section, points, false)?;

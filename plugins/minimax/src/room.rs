@@ -8,7 +8,7 @@
 //! X is that of the nose centre, and so are the distances between passes. A law may count the radius
 //! of the contact. In a hollow, contacts lie further apart than centres.
 
-use turnpath_plugin::hermite::{CLOSE, FEED_PART, pitch};
+use turnpath_plugin::hermite::{FEED_PART, LEAST_PITCH, pitch};
 use turnpath_plugin::prelude::*;
 
 /// The part of the distance between passes by which X may always err: the cusp then grows by a
@@ -61,7 +61,7 @@ fn include(path: &Path<'_>, (n, x): (&[f64], &[f64]), side: f64, errors: &mut [f
     locus.residual_feed(residual, locus.radial(), &theta, &middles, &mut feed)?;
     let others = centre_x(path, &other)?;
     for (((k, feed), other), (from, to)) in pairs.into_iter().zip(feed).zip(others).zip(sides) {
-        let distance = (other - x[k]).abs().max(CLOSE * feed);
+        let distance = (other - x[k]).abs().max(LEAST_PITCH * feed);
         let error = part((to - from).abs() / feed) * distance;
         errors[k] = errors[k].min(error);
     }

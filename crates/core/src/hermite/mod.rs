@@ -16,6 +16,6 @@ mod steps;
 mod swing;
 
 pub use bound::{Bound, Jumps};
-pub use phi::{CLOSE, pitch};
+pub use phi::{LEAST_PITCH, pitch};
 pub use steps::{FEED_PART, MAX_STEP, SHORTEST, Steps, WANDER, largest_step};
 pub use swing::x_swings;

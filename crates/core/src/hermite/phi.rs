@@ -12,9 +12,10 @@ const STEEPEST: f64 = 10.0;
 /// X's own interpolation does not matter if it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// Passes that lie closer together than this part of the feed that leaves the residual on a plane may
-/// err as if they lay so far apart. Between them stays a hundredth of the residual.
-pub const CLOSE: f64 = 0.1;
+/// The least distance between passes that X's own error is measured against, in feeds that leave the
+/// residual. Passes that lie closer may err as if they lay so far apart: between them stays a hundredth of
+/// the residual.
+pub const LEAST_PITCH: f64 = 0.1;
 
 /// With [`Misfit::CutWhatFits`] no step is shorter than this, rad. The path has a kink where the
 /// nose passes from one side of a seam to the other, and no step of any length is right there.
@@ -212,8 +213,8 @@ impl PhiEvaluator<'_> {
 
 /// The distance to the next turn, mm; on the path's last turn, the distance to the turn before. The
 /// rate is no measure of this distance: a law may come to rest at its ends, and a law that follows
-/// the angle moves back and forth. The distance counts as [`CLOSE`] feeds at the least: a law may stay
-/// for a turn where it is, and its passes then lie on each other.
+/// the angle moves back and forth. It counts as [`LEAST_PITCH`] feeds on a plane at
+/// the least: a law may stay for a turn where it is, and its passes then lie on each other.
 pub fn pitch(path: &Path<'_>, n: f64) -> f64 {
     let law = path.law;
     let to = |other: f64| (law.value(other) - law.value(n)).abs();
@@ -224,7 +225,7 @@ pub fn pitch(path: &Path<'_>, n: f64) -> f64 {
     } else {
         law.rate(n).abs()
     };
-    distance.max(CLOSE * feed_on_a_plane(path))
+    distance.max(LEAST_PITCH * feed_on_a_plane(path))
 }
 
 /// The distance between passes that leaves the residual on a plane, mm.

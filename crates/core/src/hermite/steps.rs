@@ -43,7 +43,8 @@ pub struct Steps {
     pub max_step: f64,
     /// Part of the distance between neighbouring passes that X's own interpolation error may take.
     /// Two passes may err in opposite directions, and a cusp grows with the square of their
-    /// distance. So the cusp grows by at most four times this part of itself.
+    /// distance. So the cusp grows by at most four times this part of itself, or of the residual where passes
+    /// lie closer than [`LEAST_PITCH`](super::LEAST_PITCH).
     pub feed_part: f64,
 }
 
@@ -59,7 +60,7 @@ pub const MAX_STEP: Param<Angle> = Param::angle("max_step", "largest angle step"
     .max(90.0 * DEG);
 
 /// The part of the distance between neighbouring passes that X's own interpolation error may take
-/// where X moves within the turn. The cusp grows by 4e-3 of itself at the most, and refinement
+/// where X moves within the turn. The cusp grows by 4e-3 of itself or of the residual at the most, and refinement
 /// holds what then exceeds the residual. With a tenth of this part, AST-5 with normal compensation
 /// takes 1.70 times as many points for 0.1 nm less.
 pub const FEED_PART: f64 = 1e-3;

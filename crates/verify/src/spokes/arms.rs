@@ -21,8 +21,9 @@ const RATES: usize = 4 * WINDOW;
 /// The fewest turns after which arms come back to an angle. Finer ones are as fine as the marks of the
 /// tool.
 const FEWEST_TURNS: usize = 4;
-/// Turns whose harmonics a thread finds at least.
-const TOGETHER: usize = 8;
+/// Turns whose harmonics a thread finds at least: with fewer, threads that have other work are asked too
+/// often.
+const FEWEST_A_THREAD: usize = 8;
 
 /// The largest spiral arms of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,7 +95,7 @@ impl Arms {
 
     /// The harmonics of whole turns. Threads that have nothing else to do take a part of them.
     pub(super) fn harmonics(&self, turns: &[&Turn]) -> Vec<TurnHarmonics> {
-        let each = turns.par_iter().with_min_len(TOGETHER);
+        let each = turns.par_iter().with_min_len(FEWEST_A_THREAD);
         let each = each.map_init(|| self.of_turn.clone(), TurnHarmonics::of);
         each.collect()
     }

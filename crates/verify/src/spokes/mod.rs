@@ -153,15 +153,16 @@ impl Spokes {
         {
             last.join(&turns.remove(0));
         }
-        // All but the last one are whole now.
-        let all: Vec<&Turn> = self.window.back().into_iter().chain(&turns).collect();
-        let (_, whole) = all.split_last().unzip();
-        let harmonics = self.arms.harmonics(whole.unwrap_or_default());
-        let mut harmonics = harmonics.into_iter();
-        for turn in turns {
-            if !self.window.is_empty() {
-                self.arms.include(harmonics.next().unwrap_or_default());
-            }
+        // The first turn of a path ends no other one.
+        if self.window.is_empty() && !turns.is_empty() {
+            self.push(turns.remove(0));
+        }
+        // Each turn that begins ends the one before.
+        let before: Vec<&Turn> = self.window.back().into_iter().chain(&turns).collect();
+        let ended = before.get(..turns.len()).unwrap_or_default();
+        let harmonics = self.arms.harmonics(ended);
+        for (turn, harmonics) in turns.into_iter().zip(harmonics) {
+            self.arms.include(harmonics);
             self.push(turn);
         }
     }
@@ -190,8 +191,9 @@ impl Spokes {
     /// The largest spiral arms so far; `None` on a path of a few turns.
     pub fn largest_arms(&self) -> Option<SpiralArms> {
         let mut arms = self.arms.clone();
-        let last = arms.harmonics(&[self.window.back()?]);
-        last.into_iter().for_each(|turn| arms.include(turn));
+        for last in arms.harmonics(&[self.window.back()?]) {
+            arms.include(last);
+        }
         arms.look(self.radii());
         arms.largest()
     }
