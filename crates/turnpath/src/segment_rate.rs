@@ -76,8 +76,8 @@ mod tests {
     fn a_sample_that_is_shorter_than_a_second_counts_as_what_it_stands_for() {
         // Ten steps of 19 ms, and the first 5 ms of one that the end cuts off.
         let ends = (0..11)
-            .map(|number| 0.02 * f64::from(number))
-            .chain([0.205]);
+            .map(|number| 0.019 * f64::from(number))
+            .chain([0.195]);
         for (times, expected) in [(1.0, 12), (2.0, 20), (4.0, 41), (100.0, 52)] {
             let mut rate = SegmentRate::default();
             for end in ends.clone() {
