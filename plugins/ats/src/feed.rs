@@ -118,6 +118,7 @@ impl AtsPlan {
         let mut turns = Turns::new(setup, goal.orientation, self.findings);
         for _ in 0..BATCH {
             let turn = turns.turn(self.planned, goal.start, self.last.as_ref())?;
+            goal.refuse_far_beyond(&turn)?;
             self.planned += 1;
             let short = goal.last_short(&turn);
             match (self.last.is_some(), short, self.short) {
@@ -140,6 +141,8 @@ impl AtsPlan {
 struct Goal {
     start: f64,
     end: f64,
+    /// How far the host lets a law go beyond that circle, mm.
+    room: f64,
     orientation: Orientation,
 }
 
@@ -149,6 +152,7 @@ impl Goal {
         Self {
             start: task.range.inner,
             end: task.range.outer + beyond(task),
+            room: room(task),
             orientation: Orientation {
                 outward: 1.0,
                 sense,
@@ -160,11 +164,27 @@ impl Goal {
         Self {
             start: task.range.outer,
             end: task.range.inner - beyond(task),
+            room: room(task),
             orientation: Orientation {
                 outward: -1.0,
                 sense: 1.0,
             },
         }
+    }
+
+    /// Refuses a law whose fast angles are far beyond the part before the slow ones have passed its end.
+    fn refuse_far_beyond(&self, turn: &Turn) -> Result<()> {
+        let mut places = turn.pieces.iter().map(|piece| piece.coefficients[0]);
+        let far = |rho: &f64| self.orientation.outward * (rho - self.end) > self.room;
+        let Some(rho) = places.find(far) else {
+            return Ok(());
+        };
+        Err(StrategyError::failed(format!(
+            "the feed is so much larger at some angles than at others that the path would go to ρ = {rho:.3} mm \
+             there before all angles have passed ρ = {:.3} mm; the feed `atpg` is the same at all angles of \
+             a radius, and for a smaller nose feeds differ less",
+            self.end
+        )))
     }
 
     /// The part of the last turn that the law needs. A law that runs backwards needs the whole
@@ -196,6 +216,12 @@ impl Goal {
         }
         None
     }
+}
+
+/// How far the host lets a law go beyond its range, mm: so far that no surface is to be expected there.
+fn room(task: &Task) -> f64 {
+    let RadialRange { inner, outer } = task.range;
+    outer - inner + 2.0 * task.tool.nose_radius
 }
 
 /// How far every angle must pass the range's end, mm.

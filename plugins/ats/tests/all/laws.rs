@@ -349,3 +349,15 @@ proptest! {
         check(Case::new(surface, compensating(which), 6.0, 0.8, 100.0), inward, offset);
     }
 }
+
+/// On slopes of 75 degrees feeds differ by far more than the part is wide.
+#[test]
+fn a_law_whose_fast_angles_leave_the_part_is_refused_with_what_helps() {
+    for direction in [Direction::Outward, Direction::Inward] {
+        let surface = Astigmatic::new(&Params::new().with("k", 1.25)).unwrap();
+        let mut case = Case::new(Arc::new(surface), Arc::new(ZDirection), 3.0, 0.3, 5000.0);
+        case.task.direction = direction;
+        let refused = case.law(&AtsFeed::default()).unwrap_err().to_string();
+        assert!(refused.contains("`atpg`"), "{refused}");
+    }
+}
