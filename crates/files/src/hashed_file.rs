@@ -9,7 +9,7 @@ use std::thread;
 use sha2::{Digest, Sha256};
 use twox_hash::xxhash3_128;
 
-use crate::operation::{Operation, announce, perform};
+use crate::operation::{Operation, announce, perform, uninterrupted};
 
 /// Bytes of a file that are read at once.
 const BUFFER: usize = 1 << 16;
@@ -114,16 +114,6 @@ impl HashedFile {
         match written.finish_128() == sum {
             true => Ok(contents),
             false => Err(io::Error::other("it does not read back as it was written")),
-        }
-    }
-}
-
-/// Does this again as often as a signal interrupts it.
-fn uninterrupted(act: impl Fn() -> io::Result<()>) -> io::Result<()> {
-    loop {
-        match act() {
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            done => return done,
         }
     }
 }

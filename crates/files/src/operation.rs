@@ -55,8 +55,13 @@ pub fn perform<T>(
     path: &Path,
     mut act: impl FnMut() -> io::Result<T>,
 ) -> io::Result<T> {
+    uninterrupted(|| announce(operation, path).and_then(|()| act()))
+}
+
+/// Does this, and does it again when a signal interrupts it.
+pub fn uninterrupted<T>(mut act: impl FnMut() -> io::Result<T>) -> io::Result<T> {
     loop {
-        match announce(operation, path).and_then(|()| act()) {
+        match act() {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             done => return done,
         }
