@@ -37,8 +37,9 @@ impl SegmentRate {
         }
     }
 
-    /// Counts the segments of a second from a sample that is shorter. The path goes on like the sample, for so
-    /// many times its time. A part of the segments are whole steps: the others end where the sample does.
+    /// Counts the segments of a second from a sample that is shorter. The path goes on like the sample for
+    /// `times` its time. `whole_steps` is the number of the sampler's steps over the number of segments: the
+    /// end of the sample cuts its last step off.
     pub fn extrapolate(&mut self, times: f64, whole_steps: f64) {
         let (Some(first), Some(last)) = (self.times.front(), self.times.back()) else {
             return;

@@ -12,9 +12,8 @@ const STEEPEST: f64 = 10.0;
 /// X's own interpolation does not matter if it changes Z by less than this part of the tolerance.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// The least distance between passes that X's own error is measured against, in feeds that leave the
-/// residual. Passes that lie closer may err as if they lay so far apart: between them stays a hundredth of
-/// the residual.
+/// X's own error is measured against the distance between passes, and at least against this many feeds that
+/// leave the residual. Passes that lie closer leave less than a hundredth of the residual between them.
 pub const LEAST_PITCH: f64 = 0.1;
 
 /// With [`Misfit::CutWhatFits`] no step is shorter than this, rad. The path has a kink where the
