@@ -13,7 +13,6 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
 use turnpath::{Admission, LibraryFile, LoadError, Loadable, Refusal};
 
 use crate::crash::TimeLimit;
@@ -39,14 +38,13 @@ struct Candidate<'a> {
     loadable: Loadable,
 }
 
-/// The libraries that no check refuses, each of which has its copy.
-fn candidates(libraries: &[LibraryFile]) -> Result<Vec<Candidate<'_>>, LoadError> {
-    let all = libraries.par_iter().map(|library| {
+/// The libraries that no check refuses.
+fn candidates(libraries: &[LibraryFile]) -> Vec<Candidate<'_>> {
+    let all = libraries.iter().filter_map(|library| {
         let loadable = library.loadable()?;
-        Ok(loadable.map(|loadable| Candidate { library, loadable }))
+        Some(Candidate { library, loadable })
     });
-    let all: Vec<Result<_, LoadError>> = all.collect();
-    all.into_iter().filter_map(Result::transpose).collect()
+    all.collect()
 }
 
 /// How a trial ended.
@@ -165,7 +163,7 @@ impl Trial {
 
 impl Admission for Trial {
     fn admit(&self, libraries: &[LibraryFile]) -> Result<(), LoadError> {
-        let all = candidates(libraries)?;
+        let all = candidates(libraries);
         if all.is_empty() {
             return Ok(());
         }

@@ -1,6 +1,6 @@
 //! All strategies that a run can choose from.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use turnpath_core::{HOST_KEYS, ParamKind, Slot, StrategyInfo, is_strategy_name};
 use turnpath_plugin::Offer;
 
 use crate::error::MOST_COLUMNS;
-use crate::library::Library;
+use crate::loader::{self, Library};
 use crate::own_strategy::OwnTraits;
 use crate::{Admission, LibraryFile, LoadError, OwnPlugin, Plugin, Strategy};
 
@@ -150,19 +150,18 @@ impl Catalogue {
         self.add(plugin, strategies)
     }
 
-    fn add_libraries(&mut self, mut libraries: Vec<LibraryFile>) -> Result<(), LoadError> {
-        libraries.retain(|library| !self.has(library));
+    fn add_libraries(&mut self, read: Vec<LibraryFile>) -> Result<(), LoadError> {
+        let mut libraries = Vec::with_capacity(read.len());
+        for library in read {
+            if !self.has(&library)? {
+                libraries.push(library);
+            }
+        }
         if libraries.is_empty() {
             return Ok(());
         }
-        if !self.admissions.is_empty() {
-            // A trial waits for the copies. An error is met again when the library is loaded.
-            libraries
-                .par_iter()
-                .for_each(|library| _ = library.loadable());
-        }
         let admit = |admission: &Arc<dyn Admission>| admission.admit(&libraries);
-        // An admission may wait for another process.
+        // An admission may wait for another process. An error is met again when the library is loaded.
         let (admitted, ()) = rayon::join(
             || self.admissions.iter().try_for_each(admit),
             || {
@@ -172,33 +171,34 @@ impl Catalogue {
             },
         );
         admitted?;
-        let mut in_order = libraries.iter();
-        let added = in_order.try_for_each(|library| self.add_library(library));
+        let libraries = without_repeats(libraries)?;
+        let mut loaded = loader::load(&libraries).into_iter().zip(&libraries);
+        let added = loaded.try_for_each(|(library, file)| self.add_library(library?, file));
         // Each removes its copy.
         libraries.into_par_iter().for_each(drop);
         added
     }
 
     /// Whether the same library is there already, under whatever path.
-    fn has(&self, library: &LibraryFile) -> bool {
-        let mut known = self
-            .plugins
-            .iter()
-            .filter_map(|plugin| plugin.sha256.as_deref());
-        known.any(|sha256| sha256 == library.sha256())
+    fn has(&self, library: &LibraryFile) -> Result<bool, LoadError> {
+        let known = self.plugins.iter();
+        let mut known = known
+            .filter_map(|plugin| plugin.sha256.as_deref())
+            .peekable();
+        if known.peek().is_none() {
+            return Ok(false);
+        }
+        let sha256 = library.sha256()?;
+        Ok(known.any(|known| known == sha256))
     }
 
-    fn add_library(&mut self, library: &LibraryFile) -> Result<(), LoadError> {
-        // A folder may hold one library twice.
-        if self.has(library) {
-            return Ok(());
-        }
+    fn add_library(&mut self, library: Library, file: &LibraryFile) -> Result<(), LoadError> {
         let Library {
             crate_name,
             version,
             offers,
-        } = library.load()?;
-        let from = Some((library.path().to_owned(), library.sha256().to_owned()));
+        } = library;
+        let from = Some((file.path().to_owned(), file.sha256()?.to_owned()));
         self.add(plugin(&crate_name, &version, from), of_crate(offers))
     }
 
@@ -254,6 +254,18 @@ impl Catalogue {
     pub fn plugins(&self) -> &[Arc<Plugin>] {
         &self.plugins
     }
+}
+
+/// The libraries without those that are there twice: a folder may hold one under several names.
+fn without_repeats(libraries: Vec<LibraryFile>) -> Result<Vec<LibraryFile>, LoadError> {
+    let mut seen = BTreeSet::new();
+    let mut different = Vec::with_capacity(libraries.len());
+    for library in libraries {
+        if seen.insert(library.sha256()?.to_owned()) {
+            different.push(library);
+        }
+    }
+    Ok(different)
 }
 
 /// The offers of a crate, which has nothing of the program's own.

@@ -23,6 +23,7 @@ mod error;
 mod hash;
 mod image;
 mod library;
+mod loader;
 mod machine;
 mod native;
 mod own_plugin;

@@ -7,30 +7,43 @@ use std::path::Path;
 use turnpath_plugin::Offer;
 use turnpath_plugin::loading::{self, OpenError};
 
-/// Why a library could not be opened.
-pub enum NativeError {
-    /// The system's loader refused it; this is the loader's message.
-    Loader(String),
-    /// The loader accepted it, but the boundary refused it.
-    Open(OpenError),
+/// The address of a plugin's entry, in a library that stays loaded for the rest of the program.
+#[derive(Debug, Clone, Copy)]
+pub struct Entry(*const u8);
+
+// SAFETY: the entry is a static that nobody writes, and it is there as long as the program.
+unsafe impl Send for Entry {}
+// SAFETY: as above.
+unsafe impl Sync for Entry {}
+
+impl Entry {
+    /// The strategies of the plugin, after a comparison of layouts.
+    ///
+    /// # Errors
+    /// When the boundary refuses the library.
+    pub fn offers(self) -> Result<Vec<Offer>, OpenError> {
+        // SAFETY: `load` took the address from a symbol of an entry, in a library that stays loaded.
+        unsafe { loading::open(self.0) }
+    }
 }
 
-/// Loads a library for the rest of the program, and opens the entry that it exports as `symbol`.
+/// Loads a library for the rest of the program, and finds the entry that it exports as `symbol`, which
+/// begins with the boundary's prefix.
 ///
 /// All symbols are resolved at once, so that a missing one is found here. The symbols stay private
 /// to the library. The library is never unloaded, not even when its entry is refused: objects and
 /// texts from it may be in use anywhere, and threads that it started may run.
-pub fn load(file: &Path, symbol: &str) -> Result<Vec<Offer>, NativeError> {
+///
+/// # Errors
+/// The message of the system's loader, when it refuses the library.
+pub fn load(file: &Path, symbol: &str) -> Result<Entry, String> {
     // SAFETY: the library's initialisers run. A user who trusts a plugin vouches that they behave.
     // The caller has checked that the file is complete and for this machine.
-    let library = unsafe { open_library(file) }.map_err(loader_error)?;
+    let library = unsafe { open_library(file) }.map_err(reason)?;
     // SAFETY: the symbol is a static, so its address may be taken as a pointer of any type.
     let entry = unsafe { library.get::<*const u8>(symbol) }.map(|symbol| *symbol);
     std::mem::forget(library);
-    let entry = entry.map_err(loader_error)?;
-    // SAFETY: the symbol's name begins with the boundary's prefix, and the library was forgotten,
-    // so it stays loaded.
-    unsafe { loading::open(entry) }.map_err(NativeError::Open)
+    entry.map(Entry).map_err(reason)
 }
 
 #[cfg(unix)]
@@ -47,10 +60,7 @@ unsafe fn open_library(file: &Path) -> Result<libloading::Library, libloading::E
 }
 
 /// The source of the error has the reason; the error itself says only which call failed.
-fn loader_error(error: libloading::Error) -> NativeError {
-    NativeError::Loader(
-        error
-            .source()
-            .map_or_else(|| error.to_string(), ToString::to_string),
-    )
+fn reason(error: libloading::Error) -> String {
+    let source = error.source().map(ToString::to_string);
+    source.unwrap_or_else(|| error.to_string())
 }

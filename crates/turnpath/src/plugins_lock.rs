@@ -134,32 +134,32 @@ impl PluginsLock {
         Ok(())
     }
 
-    fn admit_one(&self, library: &LibraryFile) -> Result<(), Refusal> {
-        let found = library.sha256().to_owned();
+    fn admit_one(&self, library: &LibraryFile) -> Result<(), LoadError> {
+        let found = library.sha256()?.to_owned();
         if self.entries.iter().any(|entry| entry.sha256 == found) {
             return Ok(());
         }
         let (lock, name) = (self.path.clone(), name_of(library.path()));
-        Err(match self.entries.iter().find(|entry| entry.file == name) {
+        let refusal = match self.entries.iter().find(|entry| entry.file == name) {
             Some(entry) => Refusal::OtherThanLocked {
                 lock,
                 found,
                 locked: entry.sha256.clone(),
             },
             None => Refusal::NotInLock { lock, found },
+        };
+        Err(LoadError::Refused {
+            path: library.path().to_owned(),
+            refusal,
         })
     }
 }
 
 impl Admission for PluginsLock {
     fn admit(&self, libraries: &[LibraryFile]) -> Result<(), LoadError> {
-        libraries.iter().try_for_each(|library| {
-            self.admit_one(library)
-                .map_err(|refusal| LoadError::Refused {
-                    path: library.path().to_owned(),
-                    refusal,
-                })
-        })
+        libraries
+            .iter()
+            .try_for_each(|library| self.admit_one(library))
     }
 }
 
@@ -218,18 +218,24 @@ mod tests {
         let library = folder.path().join("liba.so");
         fs::write(&library, "bytes").unwrap();
         let library = LibraryFile::read(&library).unwrap();
-        let (file, hash) = (folder.path().join("plugins.lock"), library.sha256());
+        let (file, hash) = (
+            folder.path().join("plugins.lock"),
+            library.sha256().unwrap(),
+        );
         // The same bytes may have another name.
         for entries in [[("liba.so", hash)], [("libb.so", hash)]] {
-            assert_eq!(lock(&file, &entries).admit_one(&library), Ok(()));
+            lock(&file, &entries).admit_one(&library).unwrap();
         }
-        let refusal = |entries: &[(&str, &str)]| lock(&file, entries).admit_one(&library);
+        let refusal = |entries: &[(&str, &str)]| match lock(&file, entries).admit_one(&library) {
+            Err(LoadError::Refused { refusal, .. }) => refusal,
+            other => panic!("{other:?}"),
+        };
         assert!(matches!(
             refusal(&[("liba.so", "00")]),
-            Err(Refusal::OtherThanLocked { .. })
+            Refusal::OtherThanLocked { .. }
         ));
         for entries in [&[("libb.so", "00")][..], &[]] {
-            assert!(matches!(refusal(entries), Err(Refusal::NotInLock { .. })));
+            assert!(matches!(refusal(entries), Refusal::NotInLock { .. }));
         }
     }
 

@@ -1,0 +1,119 @@
+//! Loads libraries: their code one after the other, what they say of themselves side by side.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use rayon::prelude::*;
+use turnpath_core::printable_line;
+use turnpath_plugin::Offer;
+use turnpath_plugin::calls::Callee;
+use turnpath_plugin::loading::SYMBOL_PREFIX;
+
+use crate::library::CheckedCopy;
+use crate::native::{self, Entry};
+use crate::{LibraryFile, LoadError, Refusal};
+
+/// Help for a complete file that the loader cannot map.
+const NOEXEC_HINT: &str = "the folder for temporary files may be mounted without permission to \
+                           execute; set TMPDIR to another";
+
+/// A library that was loaded, and that the boundary has accepted.
+#[derive(Debug, Clone)]
+pub struct Library {
+    /// The crate that exports the plugin.
+    pub crate_name: String,
+    /// That crate's version.
+    pub version: String,
+    /// The strategies of the plugin.
+    pub offers: Vec<Offer>,
+}
+
+/// A library whose code is in this program.
+struct LoadedCode {
+    entry: Entry,
+    /// What the entry offers, once the boundary has accepted it.
+    offers: OnceLock<Vec<Offer>>,
+}
+
+/// Loads libraries in their order, up to the first whose code cannot be loaded. The code of the same bytes
+/// is loaded only once in a program.
+///
+/// The initialisers of the libraries run one after the other, on this thread. The comparison of layouts takes
+/// longer, and so the libraries are compared side by side.
+///
+/// # Errors
+/// For each library: when it is not a plugin for this program, or cannot be loaded.
+pub fn load(files: &[LibraryFile]) -> Vec<Result<Library, LoadError>> {
+    let mut loaded = Vec::with_capacity(files.len());
+    for file in files {
+        let code = code_of(file);
+        let ends_here = code.is_err();
+        loaded.push(code);
+        if ends_here {
+            break;
+        }
+    }
+    let with_files = loaded.into_par_iter().zip(files);
+    with_files
+        .map(|(code, file)| accept(&*code?, file))
+        .collect()
+}
+
+/// Loads the code of a library.
+fn code_of(file: &LibraryFile) -> Result<Arc<LoadedCode>, LoadError> {
+    /// All that was loaded, by hash and symbol.
+    static LOADED: Mutex<BTreeMap<(String, String), Arc<LoadedCode>>> = Mutex::new(BTreeMap::new());
+    let CheckedCopy { symbol, copy } = file.checked()?;
+    let key = (file.sha256()?.to_owned(), symbol.to_owned());
+    // A panic while the lock is held leaves a valid map: each library in it is loaded.
+    let mut loaded = LOADED.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(code) = loaded.get(&key) {
+        return Ok(Arc::clone(code));
+    }
+    let mark = callee(file).enter();
+    let entry = native::load(copy.file(), symbol)
+        .map_err(|reason| file.refused(refusal(&reason, copy.file(), file.path())))?;
+    drop(mark);
+    let code = Arc::new(LoadedCode {
+        entry,
+        offers: OnceLock::new(),
+    });
+    loaded.insert(key, Arc::clone(&code));
+    Ok(code)
+}
+
+/// Asks the boundary for what the library offers.
+fn accept(code: &LoadedCode, file: &LibraryFile) -> Result<Library, LoadError> {
+    let CheckedCopy { symbol, .. } = file.checked()?;
+    let offers = match code.offers.get() {
+        Some(offers) => offers,
+        None => {
+            let _mark = callee(file).enter();
+            let offers = code.entry.offers();
+            let offers = offers.map_err(|error| file.refused(error.into()))?;
+            code.offers.get_or_init(|| offers)
+        }
+    };
+    Ok(Library {
+        crate_name: symbol.replacen(SYMBOL_PREFIX, "", 1),
+        version: offers.first().map_or("", Offer::crate_version).to_owned(),
+        offers: offers.clone(),
+    })
+}
+
+fn callee(file: &LibraryFile) -> &'static Callee {
+    let text = format!("the library {}", file.path().display());
+    Callee::new(printable_line(&text).into_owned(), true)
+}
+
+/// The refusal of the system's loader, with the name of the user's file instead of that of the copy.
+fn refusal(reason: &str, copy: &Path, path: &Path) -> Refusal {
+    let (copy, path) = (copy.to_string_lossy(), path.to_string_lossy());
+    let reason = reason
+        .replace(&format!("{copy}: "), "")
+        .replace(&*copy, &path);
+    let cannot_map = reason.contains("failed to map") || reason.contains("not permitted");
+    let hint = cannot_map.then_some(NOEXEC_HINT);
+    Refusal::Loader { reason, hint }
+}
