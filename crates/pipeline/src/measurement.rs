@@ -138,11 +138,8 @@ impl BlockMeasurement {
         sketch: bool,
     ) -> Result<Self> {
         let touch = &plan.preparation.touch;
-        let figures = Meter::measure_played(touch, playback, &block.points, &block.offsets);
-        let mut figures = figures.map_err(PipelineError::Measure)?;
-        if sketch {
-            figures.sketch(&block.points);
-        }
+        let figures = Meter::measure_played(touch, playback, &block.points, &block.offsets, sketch);
+        let figures = figures.map_err(PipelineError::Measure)?;
         let servo = start.map(|start| ServoMeter::measure(touch, start, &block.points));
         let own_axes = plan
             .own_angles()

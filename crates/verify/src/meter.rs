@@ -11,7 +11,7 @@ use crate::machined::{Fan, FormScope, Lines, MachinedFigures, SectionPasses, Sur
 use crate::playback::{PlaybackFigures, play_back};
 use crate::points::PointFigures;
 use crate::residual::{Passes, ResidualFigures};
-use crate::sketch::{BlockSketch, PathSketch, Sketch};
+use crate::sketch::{BlockSketch, PathSketch, SectionHeights, Sketch};
 use crate::spokes::{BlockSpokes, SpiralArms, Spoke, Spokes};
 use crate::touch::FirstTouch;
 
@@ -33,7 +33,6 @@ pub struct BlockFigures {
     /// Cutting speed.
     pub cutting_speed: CuttingSpeed,
     passes: Passes,
-    cusps: Vec<ResidualFigures>,
     sections: SectionPasses,
     /// The passes of the real nose, where the path takes its radius as 0.
     real_nose: Option<SectionPasses>,
@@ -41,13 +40,6 @@ pub struct BlockFigures {
     spokes: BlockSpokes,
     sketch: BlockSketch,
     ends: Option<[ControlPoint; 2]>,
-}
-
-impl BlockFigures {
-    /// Adds what pictures of the block need.
-    pub fn sketch(&mut self, points: &PathBlock) {
-        self.sketch = BlockSketch::of(points, &self.per_segment, &self.cusps);
-    }
 }
 
 /// The figures of a whole path.
@@ -129,29 +121,18 @@ impl Meter {
 
     /// Measures the segments between neighbouring points; can run in parallel.
     pub fn measure(touch: &FirstTouch, points: &PathBlock) -> Result<BlockFigures> {
-        let mut block = Self::measure_off(touch, points, &[])?;
-        block.sketch(points);
-        Ok(block)
-    }
-
-    /// Measures points that were placed off the locus, without what pictures need. `offsets` has Z of
-    /// each point above the locus, mm; it may be empty.
-    pub fn measure_off(
-        touch: &FirstTouch,
-        points: &PathBlock,
-        offsets: &[f64],
-    ) -> Result<BlockFigures> {
         let playback = BlockPlayback::of(touch, points)?;
-        Self::measure_played(touch, playback, points, offsets)
+        Self::measure_played(touch, playback, points, &[], true)
     }
 
-    /// Measures what its playback leaves open, as [`measure_off`](Self::measure_off) does. The
-    /// `playback` must be that of these points.
+    /// Measures what the playback of these points leaves open. `offsets` has Z of each point above the
+    /// locus, mm; it is empty for points on the locus. `wants_sketch` asks for what pictures need.
     pub fn measure_played(
         touch: &FirstTouch,
         playback: BlockPlayback,
         points: &PathBlock,
         offsets: &[f64],
+        wants_sketch: bool,
     ) -> Result<BlockFigures> {
         let BlockPlayback {
             figures,
@@ -171,8 +152,16 @@ impl Meter {
             ..BlockFigures::default()
         };
         block.passes = Passes::of(touch, points)?;
-        block.cusps = block.passes.cusps(touch)?;
-        block.residual = ResidualFigures::of(&block.cusps);
+        let mut cusps = SectionHeights::default();
+        block.passes.for_each_cusp(touch, |cusp| {
+            block.residual.append(&cusp);
+            if wants_sketch {
+                cusps.include(&cusp);
+            }
+        })?;
+        if wants_sketch {
+            block.sketch = BlockSketch::of(points, &block.per_segment, cusps);
+        }
         block.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
         if !touch.subject().compensates_nose {
             let radius = touch.subject().tool.nose_radius;
@@ -193,7 +182,11 @@ impl Meter {
     /// Appends the path's next block. The block begins with the last control point of the block
     /// before it.
     pub fn append(&mut self, next: BlockFigures) -> Result<()> {
-        let joint = self.passes.follow(&self.touch, &next.passes)?;
+        let (mut joint, mut cusps) = (ResidualFigures::default(), SectionHeights::default());
+        self.passes.follow(&self.touch, &next.passes, |cusp| {
+            joint.append(&cusp);
+            cusps.include(&cusp);
+        })?;
         let Self {
             figures,
             sketch,
@@ -212,8 +205,8 @@ impl Meter {
                 figures.axes.append(&next.axes);
                 figures.cutting_speed.append(&next.cutting_speed);
                 figures.residual.append(&next.residual);
-                figures.residual.append(&ResidualFigures::of(&joint));
-                sketch.append(&next.sketch, &joint);
+                figures.residual.append(&joint);
+                sketch.append(&next.sketch, &cusps);
                 lines.append(next.sections);
                 if let (Some(lines), Some(passes)) = (real_nose, next.real_nose) {
                     lines.append(passes);

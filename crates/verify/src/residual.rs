@@ -49,13 +49,6 @@ impl ResidualFigures {
         (self.cusps > 0).then_some(self.max)
     }
 
-    /// The figures of these cusps.
-    pub(crate) fn of(cusps: &[Self]) -> Self {
-        let mut figures = Self::default();
-        cusps.iter().for_each(|cusp| figures.append(cusp));
-        figures
-    }
-
     /// Appends the figures of the path's next block.
     pub fn append(&mut self, next: &Self) {
         self.cusps += next.cusps;
@@ -152,20 +145,24 @@ impl Passes {
         Ok(Self { first, passes })
     }
 
-    /// The cusps among these passes, each alone.
-    pub fn cusps(&self, touch: &FirstTouch) -> Result<Vec<ResidualFigures>> {
-        cusps_between(
-            touch,
-            &self.passes,
-            &self.passes,
-            self.first,
-            SECTIONS as usize,
-        )
+    /// Calls `take` with each cusp among these passes.
+    pub fn for_each_cusp(
+        &self,
+        touch: &FirstTouch,
+        take: impl FnMut(ResidualFigures),
+    ) -> Result<()> {
+        let (passes, turn) = (&self.passes, SECTIONS as usize);
+        for_each_between(touch, passes, passes, self.first, turn, take)
     }
 
-    /// Appends the passes of the following sections. Returns the cusps between the last revolution
-    /// so far and the first revolution of `next`, each alone, and keeps the last revolution alone.
-    pub fn follow(&mut self, touch: &FirstTouch, next: &Passes) -> Result<Vec<ResidualFigures>> {
+    /// Appends the passes of the following sections. Calls `take` with each cusp between the last
+    /// revolution so far and the first revolution of `next`, and keeps the last revolution alone.
+    pub fn follow(
+        &mut self,
+        touch: &FirstTouch,
+        next: &Passes,
+        take: impl FnMut(ResidualFigures),
+    ) -> Result<()> {
         let turn = SECTIONS as usize;
         let (begin, rest) = next.passes.split_at(turn.min(next.passes.len()));
         let earlier = self.passes.len();
@@ -174,7 +171,7 @@ impl Passes {
         }
         self.passes.extend_from_slice(begin);
         let (all, first) = (&self.passes, self.first);
-        let cusps = cusps_between(touch, &all[..earlier], all, first, turn)?;
+        for_each_between(touch, &all[..earlier], all, first, turn, take)?;
         if rest.len() >= turn {
             self.first += (self.passes.len() + rest.len() - turn) as i64;
             self.passes.clear();
@@ -185,7 +182,7 @@ impl Passes {
             self.first += dropped as i64;
             self.passes.drain(..dropped);
         }
-        Ok(cusps)
+        Ok(())
     }
 }
 
@@ -224,22 +221,23 @@ fn tangent_centre(touch: &Touch, radius: f64) -> Point {
     Point::new(touch.foot - radius * touch.slope / w, touch.z + radius / w)
 }
 
-/// The cusps between each pass of `earlier` and the pass `turn` entries further on in `all`: those
-/// that stand on the part.
-fn cusps_between(
+/// Calls `take` with each cusp between a pass of `earlier` and the pass `turn` entries further on in
+/// `all` that stands on the part.
+fn for_each_between(
     touch: &FirstTouch,
     earlier: &[Pass],
     all: &[Pass],
     first: i64,
     turn: usize,
-) -> Result<Vec<ResidualFigures>> {
+    mut take: impl FnMut(ResidualFigures),
+) -> Result<()> {
     let tool = &touch.subject().tool;
     // Where a nose may leave seams, the highest of all cusps decides which are measured.
     let batch = match touch.leaves_seams() {
         true => usize::MAX,
         false => BATCH,
     };
-    let mut found = Vec::with_capacity(earlier.len().min(all.len().saturating_sub(turn)));
+    let mut take = |cusp: Option<_>| cusp.into_iter().for_each(&mut take);
     let (mut theta, mut cusps) = (Vec::new(), Vec::new());
     for ((number, one), other) in (first..).zip(earlier).zip(all.iter().skip(turn)) {
         let same_side = one.x * other.x >= 0.0;
@@ -249,13 +247,12 @@ fn cusps_between(
         theta.push(angle_of(number));
         cusps.push(one.cusp(other, tool));
         if cusps.len() == batch {
-            found.extend(each(touch, &theta, &cusps)?.into_iter().flatten());
+            for_each(touch, &theta, &cusps, &mut take)?;
             theta.clear();
             cusps.clear();
         }
     }
-    found.extend(each(touch, &theta, &cusps)?.into_iter().flatten());
-    Ok(found)
+    for_each(touch, &theta, &cusps, take)
 }
 
 /// The residual of those of these cusps that stand on the part, each at its own angle. A cusp stands
@@ -265,8 +262,10 @@ pub(crate) fn highest(
     theta: &[f64],
     cusps: &[Cusp],
 ) -> Result<ResidualFigures> {
-    let cusps: Vec<ResidualFigures> = each(touch, theta, cusps)?.into_iter().flatten().collect();
-    Ok(ResidualFigures::of(&cusps))
+    let mut figures = ResidualFigures::default();
+    let append = |cusp: Option<_>| cusp.iter().for_each(|cusp| figures.append(cusp));
+    for_each(touch, theta, cusps, append)?;
+    Ok(figures)
 }
 
 /// The height, mm, of the cusp that two passes leave at each angle, with the tool touching the
@@ -286,12 +285,19 @@ pub fn cusp_heights(
     let cusps: Vec<Cusp> = (passes(0)?.iter().zip(&passes(1)?))
         .map(|(one, other)| one.cusp(other, &touch.subject().tool))
         .collect();
-    let found = each(touch, theta, &cusps)?.into_iter();
-    Ok(found.map(|cusp| cusp.map(|cusp| cusp.max)).collect())
+    let mut heights = Vec::with_capacity(cusps.len());
+    let push = |cusp: Option<ResidualFigures>| heights.push(cusp.map(|cusp| cusp.max));
+    for_each(touch, theta, &cusps, push)?;
+    Ok(heights)
 }
 
-/// The residual of each of these cusps alone; `None` for a cusp off the part.
-fn each(touch: &FirstTouch, theta: &[f64], cusps: &[Cusp]) -> Result<Vec<Option<ResidualFigures>>> {
+/// Calls `take` with the residual of each of these cusps alone; `None` for a cusp off the part.
+fn for_each(
+    touch: &FirstTouch,
+    theta: &[f64],
+    cusps: &[Cusp],
+    take: impl FnMut(Option<ResidualFigures>),
+) -> Result<()> {
     let subject = touch.subject();
     let part = subject.part.inner_radius..=subject.part.aperture_radius;
     let tips: Vec<Point> = cusps.iter().map(|cusp| cusp.tip).collect();
@@ -327,7 +333,8 @@ fn each(touch: &FirstTouch, theta: &[f64], cusps: &[Cusp]) -> Result<Vec<Option<
             cusps: 1,
         })
     });
-    Ok(on_part.collect())
+    on_part.for_each(take);
+    Ok(())
 }
 
 /// The distance of each cusp from its profile, mm, and the radius of the nearest point of the

@@ -13,7 +13,7 @@ use turnpath_pipeline::{
     DraftSink, LeadLimits, LeadSettings, Observer, Outcome, PipelineError, RunError,
     SilentObserver, Sink, Stage,
 };
-use turnpath_verify::Meter;
+use turnpath_verify::{BlockPlayback, Meter};
 
 /// Revolutions of a path whose last blocks are not made together with the first.
 const LONG: f64 = 4200.0;
@@ -177,7 +177,8 @@ fn figures(task: &Task, sink: &MemorySink) -> String {
             .filter_map(|index| sink.points.get(index))
             .for_each(|point| block.push(point));
         let offsets = vec![0.0; block.len()];
-        let measured = Meter::measure_off(&touch, &block, &offsets).unwrap();
+        let playback = BlockPlayback::of(&touch, &block).unwrap();
+        let measured = Meter::measure_played(&touch, playback, &block, &offsets, false).unwrap();
         meter.append(measured).unwrap();
         from = to;
     }

@@ -15,7 +15,6 @@ use turnpath_core::toolpath::PathBlock;
 
 use crate::coverage::EdgeHeights;
 use crate::machined::ErrorRings;
-use crate::residual::ResidualFigures;
 
 pub use sections::SectionHeights;
 use spiral::Spiral;
@@ -58,23 +57,23 @@ pub(crate) struct Sketch {
 }
 
 impl BlockSketch {
-    /// A block with the largest |error| of each of its segments, mm, and its cusps.
-    pub fn of(points: &PathBlock, per_segment: &[f64], cusps: &[ResidualFigures]) -> Self {
+    /// A block with the largest |error| of each of its segments, mm, and its highest cusps.
+    pub fn of(points: &PathBlock, per_segment: &[f64], cusps: SectionHeights) -> Self {
         Self {
             samples: spiral::samples(points, per_segment),
             turns: TurnLog::of(points, per_segment),
-            sections: SectionHeights::of(cusps),
+            sections: cusps,
         }
     }
 }
 
 impl Sketch {
-    /// Appends the path's next block, and the cusps between it and the block before.
-    pub fn append(&mut self, next: &BlockSketch, joint: &[ResidualFigures]) {
+    /// Appends the path's next block, and the highest cusps between it and the block before.
+    pub fn append(&mut self, next: &BlockSketch, joint: &SectionHeights) {
         self.spiral.append(&next.samples);
         self.turns.append(&next.turns);
         self.sections.append(&next.sections);
-        self.sections.append(&SectionHeights::of(joint));
+        self.sections.append(joint);
     }
 
     /// The places of the tool.

@@ -12,17 +12,13 @@ pub struct SectionHeights {
 }
 
 impl SectionHeights {
-    /// The highest of these cusps on each section.
-    pub(crate) fn of(cusps: &[ResidualFigures]) -> Self {
-        let mut sections = Self::default();
-        for cusp in cusps {
-            let number = (cusp.at_theta / TAU * SECTIONS as f64).round() as i64;
-            sections.include(number.rem_euclid(SECTIONS) as usize, cusp.max);
-        }
-        sections
+    /// Includes one cusp.
+    pub(crate) fn include(&mut self, cusp: &ResidualFigures) {
+        let number = (cusp.at_theta / TAU * SECTIONS as f64).round() as i64;
+        self.include_height(number.rem_euclid(SECTIONS) as usize, cusp.max);
     }
 
-    fn include(&mut self, section: usize, height: f64) {
+    fn include_height(&mut self, section: usize, height: f64) {
         if self.heights.is_empty() {
             self.heights.resize(SECTIONS as usize, f64::NAN);
         }
@@ -34,7 +30,7 @@ impl SectionHeights {
     /// Appends those of the path's next block.
     pub(crate) fn append(&mut self, next: &Self) {
         for (section, height) in next.heights.iter().enumerate() {
-            self.include(section, *height);
+            self.include_height(section, *height);
         }
     }
 
@@ -57,14 +53,20 @@ mod tests {
         }
     }
 
+    fn of(cusps: &[ResidualFigures]) -> SectionHeights {
+        let mut sections = SectionHeights::default();
+        cusps.iter().for_each(|cusp| sections.include(cusp));
+        sections
+    }
+
     #[test]
     fn each_section_keeps_its_highest_cusp_and_the_others_have_none() {
-        let mut sections = SectionHeights::of(&[cusp(0.0, 2.0), cusp(359.0, 1.0)]);
-        sections.append(&SectionHeights::of(&[cusp(359.0, 3.0), cusp(0.0, 1.0)]));
+        let mut sections = of(&[cusp(0.0, 2.0), cusp(359.0, 1.0)]);
+        sections.append(&of(&[cusp(359.0, 3.0), cusp(0.0, 1.0)]));
         sections.append(&SectionHeights::default());
         let heights = sections.heights();
         assert_eq!((heights[0], heights[359]), (2.0, 3.0));
         assert_eq!(heights.iter().filter(|height| height.is_nan()).count(), 358);
-        assert!(SectionHeights::of(&[]).heights().is_empty());
+        assert!(SectionHeights::default().heights().is_empty());
     }
 }
