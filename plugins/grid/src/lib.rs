@@ -10,7 +10,7 @@
 //!    least.
 //! 4. `interpolation`: the coefficients of a tensor B-spline of degree 5 through all points.
 //! 5. `edges`: where the map is smooth, its own spline counts up to its edge.
-//! 6. `spline`: the coefficients, and those that count at a place.
+//! 6. `spline`: the coefficients, and those that count at a place; `continuation`: those beyond the map.
 //! 7. `points` and `taylor`: values and slopes, and series along curves.
 
 #[cfg(test)]
@@ -20,6 +20,7 @@ mod basis;
 mod bending;
 mod blocks;
 mod cells;
+mod continuation;
 mod differences;
 mod edges;
 mod interpolation;

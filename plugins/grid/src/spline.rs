@@ -1,10 +1,10 @@
 //! The spline: its coefficients, and its values and slopes.
 
 use crate::basis::{BEFORE, LANES, NO_WEIGHTS, SPLINES, Weights};
+use crate::continuation::Continuation;
 use crate::edges;
 use crate::interpolation::{BEYOND, coefficients};
 use crate::sheet::Sheet;
-use crate::trend::Trend;
 
 /// The 36 coefficients that count at a place, row by row.
 pub type Patch = [Weights; SPLINES];
@@ -44,7 +44,7 @@ pub struct Spline {
     coefficients: Sheet,
     /// Coefficients that are kept on each side.
     kept: usize,
-    trend: Trend,
+    continuation: Continuation,
     /// 1 / pitch, 1/mm.
     pub per: [f64; 2],
     /// Number of the column (row) of coefficients at x = 0 (y = 0).
@@ -79,7 +79,7 @@ impl Spline {
         let kept = coefficients.columns.min(coefficients.rows) / KEPT_SHARE;
         let kept = kept.min(MOST_KEPT);
         let mut spline = Self {
-            trend: Trend::of(&coefficients),
+            continuation: Continuation::of(&coefficients),
             coefficients: coefficients.with_margin(kept),
             kept,
             per: pitch.map(f64::recip),
@@ -182,17 +182,11 @@ impl Spline {
 
     /// A coefficient beyond the spline's own. One of these comes out but for rounding.
     fn beyond(&self, column: f64, row: f64) -> f64 {
-        let [columns, rows] = self.own();
-        let (of_columns, of_rows) = (straight(column, columns), straight(row, rows));
-        let mut rest = 0.0;
-        for (row, share) in of_rows {
-            for (column, part) in of_columns {
-                let place = (row + self.kept) * self.coefficients.columns + column + self.kept;
-                let value = self.coefficients.values[place];
-                rest += share * part * (value - self.trend.at(column as f64, row as f64));
-            }
-        }
-        self.trend.at(column, row) + rest
+        let own = |column: usize, row: usize| {
+            let place = (row + self.kept) * self.coefficients.columns + column + self.kept;
+            self.coefficients.values[place]
+        };
+        self.continuation.at(column, row, own)
     }
 }
 
@@ -201,19 +195,6 @@ impl Spline {
 fn whole(number: f64) -> i64 {
     let towards_zero = number as i64;
     towards_zero.wrapping_sub(i64::from(towards_zero as f64 > number))
-}
-
-/// The two numbers of columns (rows) whose straight line goes through this one, with their shares.
-fn straight(at: f64, count: usize) -> [(usize, f64); 2] {
-    let last = count - 1;
-    if at < 0.0 {
-        [(0, 1.0 - at), (1, at)]
-    } else if at > last as f64 {
-        let beyond = at - last as f64;
-        [(last, 1.0 + beyond), (last - 1, -beyond)]
-    } else {
-        [(at as usize, 1.0), (at as usize, 0.0)]
-    }
 }
 
 /// The sum of the rows, weighted.
