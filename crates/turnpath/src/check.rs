@@ -22,7 +22,7 @@ use crate::program::Program;
 use crate::region::region;
 use crate::remarks::PathSubject;
 use crate::rough_paths::RoughJob;
-use crate::sizes::sampled_bytes;
+use crate::sampled_stretches::sampled_stretches;
 
 impl Job {
     /// What the part asks of the tool, and what the path and its rough paths will be, without making them.
@@ -115,11 +115,13 @@ impl Job {
 
     /// Bytes of the table of the path, from a sample of it.
     fn toolpath_bytes(&self, sample: &PathSample) -> Result<f64, Error> {
-        let bytes = sampled_bytes(sample, |block| {
-            PathWriter::rows(block.section, block.points).map(|rows| rows.len())
+        let stretches = sampled_stretches(sample, |block| {
+            PathWriter::rows(block.section, block.points).map(|rows| rows.len() as u64)
         });
         let path = self.recipe.path().to_owned();
-        Ok(bytes.map_err(|error| FileError { path, error })?)
+        let stretches = stretches.map_err(|error| FileError { path, error })?;
+        let of_path = stretches.iter().map(|rows| rows.of_path(rows.amount));
+        Ok(of_path.sum())
     }
 
     /// The tolerance of form, with what the first path is made for.

@@ -58,6 +58,7 @@ mod result_check;
 mod rough_paths;
 mod run;
 mod sag;
+mod sampled_stretches;
 mod segment_rate;
 mod sinks;
 mod sizes;

@@ -1,6 +1,5 @@
 //! The motion programs of a recipe: how they are laid out, put together and measured.
 
-use std::cell::RefCell;
 use std::path::Path;
 
 use turnpath_core::Params;
@@ -24,8 +23,8 @@ use crate::error::Error;
 use crate::figures::{form_error, tolerances};
 use crate::meters::{BLOCK_ROWS, ProgramMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
+use crate::sampled_stretches::{SampledStretch, sampled_stretches};
 use crate::segment_rate::SegmentRate;
-use crate::sizes::sampled_bytes;
 
 /// A program that a recipe asks for.
 #[derive(Clone)]
@@ -118,17 +117,16 @@ impl Program {
     /// What the program will take, from a sample of its path: within some percent. What the controller
     /// does not take is refused as a run refuses it.
     pub fn sampled_size(&self, sample: &PathSample) -> Result<SampledSize, NotCarried> {
-        let sampled = RefCell::new(Vec::new());
-        let of_lines = |what: fn(TextSize) -> u64| {
-            sampled_bytes(sample, |block| {
-                let size = TextSize::of(&self.lines(block)?.text);
-                sampled.borrow_mut().push((block.section, size));
-                Ok(what(size) as usize)
-            })
+        let stretches =
+            sampled_stretches(sample, |block| Ok(TextSize::of(&self.lines(block)?.text)))?;
+        let of_path = |what: fn(TextSize) -> u64| {
+            let each = stretches.iter();
+            each.map(|lines| lines.of_path(what(lines.amount)))
+                .sum::<f64>() as u64
         };
         let lines = TextSize {
-            bytes: of_lines(|size| size.bytes)? as u64,
-            blocks: of_lines(|size| size.blocks)? as u64,
+            bytes: of_path(|size| size.bytes),
+            blocks: of_path(|size| size.blocks),
         };
         let size = lines.and(self.frame_size());
         for block in &sample.blocks {
@@ -143,7 +141,7 @@ impl Program {
             return self.carried(Err(ProgramError::ManyParts { most }));
         }
         if let Some((limits, parts)) = limits.zip(parts) {
-            self.refuse_large_parts(&limits, parts, &sampled.into_inner())?;
+            self.refuse_large_parts(&limits, parts, &stretches)?;
         }
         Ok(SampledSize { size, parts })
     }
@@ -205,7 +203,7 @@ impl Program {
         &self,
         limits: &PartLimits,
         parts: u64,
-        sampled: &[(Section, TextSize)],
+        sampled: &[SampledStretch<TextSize>],
     ) -> Result<(), NotCarried> {
         let parts = u32::try_from(parts).unwrap_or(u32::MAX);
         let around = self.layout.size_around_parts(&self.file, parts);
@@ -214,10 +212,10 @@ impl Program {
         };
         let file = text_name(&self.file);
         let of = |wanted: Section| {
-            let sampled = sampled.iter().filter(|(_, lines)| lines.blocks > 0);
-            sampled
-                .filter(move |(section, _)| *section == wanted)
-                .map(|(_, lines)| *lines)
+            let wanted = sampled.iter().filter(move |one| one.section == wanted);
+            wanted
+                .map(|one| one.amount)
+                .filter(|lines| lines.blocks > 0)
         };
         // The first part begins with the lead-in; a lead-out may be cut anywhere.
         let cuts = || of(Section::Cutting);

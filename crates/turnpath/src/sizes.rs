@@ -3,50 +3,14 @@
 use std::io;
 use std::path::Path;
 
-use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_files::FileError;
-use turnpath_pipeline::{Estimate, PathSample};
+use turnpath_pipeline::Estimate;
 
 /// Bytes that a row of `toolpath.csv` takes, give or take a tenth: seven doubles and a digit.
 const ROW_BYTES: f64 = 125.0;
 
 /// Bytes of a row in a file of columns: seven doubles and a section.
 const COLUMN_ROW_BYTES: f64 = 57.0;
-
-/// Bytes of all blocks and leads of a path, from a sample of it. `bytes_of` gives those of points of a
-/// section, which begin with one that stands for the lines before.
-pub fn sampled_bytes<E>(
-    sample: &PathSample,
-    bytes_of: impl Fn(&SectionBlock<'_>) -> Result<usize, E>,
-) -> Result<f64, E> {
-    let stretch = |section: Section, points: &PathBlock, joint: bool| -> Result<f64, E> {
-        let Some(first) = points.get(0).filter(|_| points.len() > 1) else {
-            return Ok(0.0);
-        };
-        let mut rest = PathBlock {
-            shape: points.shape,
-            ..PathBlock::default()
-        };
-        points.points().skip(1).for_each(|point| rest.push(point));
-        let bytes = bytes_of(&SectionBlock {
-            section,
-            opens_section: false,
-            before: &[first],
-            points: &rest,
-        })?;
-        // A block ends with the point at which the next one begins.
-        let counted = if joint { rest.len() } else { rest.len() + 1 };
-        Ok(bytes as f64 * counted as f64 / rest.len() as f64)
-    };
-    let mut sum = 0.0;
-    for block in &sample.blocks {
-        sum += block.segments_for_each() * stretch(Section::Cutting, &block.points, true)?;
-    }
-    for (section, points) in &sample.leads {
-        sum += stretch(*section, points, false)?;
-    }
-    Ok(sum)
-}
 
 /// Bytes of `toolpath.csv` before refinement, to see whether a disk has room.
 pub fn toolpath_bytes(expected: &Estimate) -> f64 {
