@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use crate::support::bench::{Answer, Bench};
+use crate::support::bench::{Answer, Bench, answer};
 use crate::support::bench_with_plugins::{bench, refused};
 use crate::support::fixtures::{file_name, library, plugin_folder};
 use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
@@ -285,6 +285,38 @@ fn a_plugin_that_is_listed_twice_is_loaded_once() {
     let said = bench.call(["list", "sampler", "--plugin-dir", dir, "--plugin-dir", dir]);
     let said = said.ends(0);
     assert_eq!(said.stdout.matches("constant-arc  ").count(), 1, "{said}");
+}
+
+#[test]
+fn a_library_under_two_names_in_one_folder_is_loaded_once() {
+    let bench = bench(SADDLE, &["constant-arc"]);
+    let library = bench.path("plugins").join(file_name("constant-arc"));
+    fs::copy(&library, library.with_file_name(file_name("same-arc"))).unwrap();
+    let said = bench.line("list sampler --plugin-dir plugins").ends(0);
+    assert_eq!(said.stdout.matches("constant-arc  ").count(), 1, "{said}");
+}
+
+/// `constant-arc` and `two-speeds` work; the program refuses `host-keys` once its code is loaded.
+#[test]
+fn among_plugins_that_work_the_one_that_is_refused_is_named_and_no_copy_is_left() {
+    let bench = bench(SADDLE, &["constant-arc", "host-keys", "two-speeds"]);
+    let said = bench.line("list --plugin-dir plugins").ends(3);
+    assert!(said.stderr.contains(&file_name("host-keys")), "{said}");
+    assert!(bench.scratch_is_empty(), "temporary files are left");
+}
+
+#[test]
+fn a_library_that_cannot_be_copied_is_named_with_the_folder_for_temporary_files() {
+    let bench = bench(SADDLE, &["constant-arc"]);
+    let mut call = bench.command(["list", "--plugin-dir", "plugins"]);
+    let said = answer(call.env("TMPDIR", bench.path("not-there"))).ends(4);
+    for part in [
+        "cannot write a copy of",
+        &file_name("constant-arc"),
+        "not-there",
+    ] {
+        assert!(said.stderr.contains(part), "{said}");
+    }
 }
 
 #[test]

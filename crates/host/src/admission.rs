@@ -7,7 +7,8 @@ use crate::{LibraryFile, LoadError};
 /// Decides whether libraries may be loaded. A [`Catalogue`](crate::Catalogue) asks all of its
 /// admissions, in the order in which they were given, before it loads the first of these libraries.
 pub trait Admission: Debug + Send + Sync {
-    /// Admits the libraries, which have been read and nothing else: all of a folder, or a file alone.
+    /// Admits the libraries: all of a folder, or a file alone. They have been read, checked and copied, and
+    /// none of their code has run.
     ///
     /// # Errors
     /// When one of them must not be loaded. Then none is.

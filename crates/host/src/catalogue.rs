@@ -115,8 +115,8 @@ impl Catalogue {
     /// `*.so`, `*.dylib` and `*.dll`. Other files and folders are ignored.
     ///
     /// # Errors
-    /// When a library cannot be read, is not admitted, or cannot be loaded. The libraries before one
-    /// that cannot be loaded stay in the catalogue.
+    /// When a library cannot be read or copied, is not admitted, or cannot be loaded. The libraries before
+    /// one that cannot be loaded stay in the catalogue. The code of those behind it may have been loaded too.
     pub fn add_folder(&mut self, folder: impl AsRef<Path>) -> Result<(), LoadError> {
         let libraries = LibraryFile::read_folder(&folder)?;
         if libraries.is_empty() {
@@ -134,7 +134,7 @@ impl Catalogue {
     /// under whatever path.
     ///
     /// # Errors
-    /// When the file cannot be read, is not admitted, is not a plugin for this program, or has a
+    /// When the file cannot be read or copied, is not admitted, is not a plugin for this program, or has a
     /// strategy with a name that the catalogue has already or no recipe could choose, or with a
     /// parameter whose name belongs to the host. The catalogue then has nothing of the plugin.
     pub fn add_file(&mut self, file: impl AsRef<Path>) -> Result<(), LoadError> {
@@ -161,7 +161,7 @@ impl Catalogue {
             return Ok(());
         }
         let admit = |admission: &Arc<dyn Admission>| admission.admit(&libraries);
-        // An admission may wait for another process. An error is met again when the library is loaded.
+        // An admission may wait for another process. An error of a hash is met again below.
         let (admitted, ()) = rayon::join(
             || self.admissions.iter().try_for_each(admit),
             || {
@@ -256,7 +256,7 @@ impl Catalogue {
     }
 }
 
-/// The libraries without those that are there twice: a folder may hold one under several names.
+/// Each library once: a folder may hold one under several names.
 fn without_repeats(libraries: Vec<LibraryFile>) -> Result<Vec<LibraryFile>, LoadError> {
     let mut seen = BTreeSet::new();
     let mut different = Vec::with_capacity(libraries.len());

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
+use turnpath_plugin::loading::Accepted;
 
 use crate::hash::{sha256_hex, sha256_hex_of_file};
 use crate::native;
@@ -25,8 +26,8 @@ const EXTENSIONS: [&str; 3] = ["so", "dylib", "dll"];
 pub struct LibraryFile {
     path: PathBuf,
     checked: Result<CheckedCopy, Refusal>,
-    /// The hash of the bytes, once it is asked for.
-    sha256: OnceLock<String>,
+    /// The hash of the bytes, once it is asked for, or why it cannot be found.
+    sha256: OnceLock<io::Result<String>>,
 }
 
 /// A private copy of bytes that passed the checks.
@@ -51,7 +52,7 @@ impl Loadable {
     /// library that the loader or the boundary refuses.
     pub fn try_load(&self) {
         if let Ok(entry) = native::load(&self.file, &self.symbol) {
-            let _ = entry.offers();
+            let _ = entry.offers(Accepted::Any);
         }
     }
 }
@@ -76,7 +77,7 @@ impl LibraryFile {
     /// `*.so`, `*.dylib` and `*.dll`.
     ///
     /// # Errors
-    /// When the folder or one of the libraries cannot be read.
+    /// When the folder or one of the libraries cannot be read, or what passes cannot be copied.
     pub fn read_folder(folder: impl AsRef<Path>) -> Result<Vec<Self>, LoadError> {
         let files = libraries_in(folder.as_ref())?;
         let share = files.len().div_ceil(rayon::current_num_threads()).max(1);
@@ -92,25 +93,26 @@ impl LibraryFile {
     /// Reads a library through a buffer. Fresh memory for each library would take longer than the reading.
     fn read_with(buffer: &mut Vec<u8>, file: &Path) -> Result<Self, LoadError> {
         let path = read_bytes(buffer, file)?;
-        let sha256 = OnceLock::new();
-        let checked = match image::entry_symbol(buffer, &stem(&path)) {
-            Ok(symbol) => {
-                let copy = PrivateCopy::of(buffer).map_err(|source| LoadError::NoCopy {
-                    path: path.clone(),
-                    folder: std::env::temp_dir(),
-                    source,
-                })?;
-                Ok(CheckedCopy { symbol, copy })
-            }
+        let symbol = match image::entry_symbol(buffer, &stem(&path)) {
+            Ok(symbol) => symbol,
             Err(refusal) => {
-                sha256.get_or_init(|| sha256_hex(buffer));
-                Err(refusal)
+                return Ok(Self {
+                    path,
+                    checked: Err(refusal),
+                    // There is no copy that could be hashed later.
+                    sha256: OnceLock::from(Ok(sha256_hex(buffer))),
+                });
             }
         };
+        let copy = PrivateCopy::of(buffer).map_err(|source| LoadError::NoCopy {
+            path: path.clone(),
+            folder: std::env::temp_dir(),
+            source,
+        })?;
         Ok(Self {
             path,
-            checked,
-            sha256,
+            checked: Ok(CheckedCopy { symbol, copy }),
+            sha256: OnceLock::new(),
         })
     }
 
@@ -124,15 +126,16 @@ impl LibraryFile {
     /// # Errors
     /// When the copy of the bytes cannot be read.
     pub fn sha256(&self) -> Result<&str, LoadError> {
-        if let Some(sha256) = self.sha256.get() {
-            return Ok(sha256);
-        }
-        let file = self.checked()?.copy.file();
-        let sha256 = sha256_hex_of_file(file).map_err(|source| LoadError::Unreadable {
-            path: file.to_owned(),
-            source,
-        })?;
-        Ok(self.sha256.get_or_init(|| sha256))
+        let file = self.checked.as_ref().map(|checked| checked.copy.file());
+        let of_copy = || match file {
+            Ok(file) => sha256_hex_of_file(file),
+            Err(refusal) => Err(io::Error::other(refusal.to_string())),
+        };
+        let sha256 = self.sha256.get_or_init(of_copy).as_deref();
+        sha256.map_err(|error| LoadError::Unreadable {
+            path: self.path.clone(),
+            source: io::Error::new(error.kind(), format!("its private copy: {error}")),
+        })
     }
 
     /// What the loader will get, so that another process can try it; `None` if the library is refused before.

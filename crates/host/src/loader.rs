@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use turnpath_core::printable_line;
 use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
-use turnpath_plugin::loading::SYMBOL_PREFIX;
+use turnpath_plugin::loading::{Accepted, SYMBOL_PREFIX};
 
 use crate::library::CheckedCopy;
 use crate::native::{self, Entry};
@@ -19,7 +19,7 @@ const NOEXEC_HINT: &str = "the folder for temporary files may be mounted without
                            execute; set TMPDIR to another";
 
 /// A library that was loaded, and that the boundary has accepted.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Library {
     /// The crate that exports the plugin.
     pub crate_name: String,
@@ -40,7 +40,7 @@ struct LoadedCode {
 /// is loaded only once in a program.
 ///
 /// The initialisers of the libraries run one after the other, on this thread. The comparison of layouts takes
-/// longer, and so the libraries are compared side by side.
+/// longer, so libraries that are not newer than this program are compared side by side.
 ///
 /// # Errors
 /// For each library: when it is not a plugin for this program, or cannot be loaded.
@@ -54,9 +54,16 @@ pub fn load(files: &[LibraryFile]) -> Vec<Result<Library, LoadError>> {
             break;
         }
     }
-    let with_files = loaded.into_par_iter().zip(files);
-    with_files
-        .map(|(code, file)| accept(&*code?, file))
+    // What is newer or refused is opened again below, in order.
+    let with_files = loaded.par_iter().zip(files);
+    with_files.for_each(|(code, file)| {
+        if let Ok(code) = code {
+            let _ = open(code, file, Accepted::Older);
+        }
+    });
+    let in_order = loaded.into_iter().zip(files);
+    in_order
+        .map(|(code, file)| library(code?.as_ref(), file))
         .collect()
 }
 
@@ -83,22 +90,28 @@ fn code_of(file: &LibraryFile) -> Result<Arc<LoadedCode>, LoadError> {
     Ok(code)
 }
 
-/// Asks the boundary for what the library offers.
-fn accept(code: &LoadedCode, file: &LibraryFile) -> Result<Library, LoadError> {
+/// What the library offers, if the boundary accepts it.
+fn open<'a>(
+    code: &'a LoadedCode,
+    file: &LibraryFile,
+    accepted: Accepted,
+) -> Result<&'a [Offer], LoadError> {
+    if let Some(offers) = code.offers.get() {
+        return Ok(offers);
+    }
+    let _mark = callee(file).enter();
+    let offers = code.entry.offers(accepted);
+    let offers = offers.map_err(|error| file.refused(error.into()))?;
+    Ok(code.offers.get_or_init(|| offers))
+}
+
+fn library(code: &LoadedCode, file: &LibraryFile) -> Result<Library, LoadError> {
     let CheckedCopy { symbol, .. } = file.checked()?;
-    let offers = match code.offers.get() {
-        Some(offers) => offers,
-        None => {
-            let _mark = callee(file).enter();
-            let offers = code.entry.offers();
-            let offers = offers.map_err(|error| file.refused(error.into()))?;
-            code.offers.get_or_init(|| offers)
-        }
-    };
+    let offers = open(code, file, Accepted::Any)?;
     Ok(Library {
         crate_name: symbol.replacen(SYMBOL_PREFIX, "", 1),
         version: offers.first().map_or("", Offer::crate_version).to_owned(),
-        offers: offers.clone(),
+        offers: offers.to_vec(),
     })
 }
 

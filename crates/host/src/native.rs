@@ -5,13 +5,14 @@ use std::error::Error;
 use std::path::Path;
 
 use turnpath_plugin::Offer;
-use turnpath_plugin::loading::{self, OpenError};
+use turnpath_plugin::loading::{self, Accepted, OpenError, SYMBOL_PREFIX};
 
 /// The address of a plugin's entry, in a library that stays loaded for the rest of the program.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry(*const u8);
 
-// SAFETY: the entry is a static that nobody writes, and it is there as long as the program.
+// SAFETY: the entry is a Rust static, and such a static is `Sync`: what is written to it when it is opened goes
+// through atomics and locks. It is there as long as the program.
 unsafe impl Send for Entry {}
 // SAFETY: as above.
 unsafe impl Sync for Entry {}
@@ -20,23 +21,26 @@ impl Entry {
     /// The strategies of the plugin, after a comparison of layouts.
     ///
     /// # Errors
-    /// When the boundary refuses the library.
-    pub fn offers(self) -> Result<Vec<Offer>, OpenError> {
-        // SAFETY: `load` took the address from a symbol of an entry, in a library that stays loaded.
-        unsafe { loading::open(self.0) }
+    /// When the boundary refuses the library, or it is not one of those that are accepted.
+    pub fn offers(self, accepted: Accepted) -> Result<Vec<Offer>, OpenError> {
+        // SAFETY: `load` took the address from a symbol with the boundary's prefix, in a library that stays
+        // loaded.
+        unsafe { loading::open(self.0, accepted) }
     }
 }
 
-/// Loads a library for the rest of the program, and finds the entry that it exports as `symbol`, which
-/// begins with the boundary's prefix.
+/// Loads a library for the rest of the program, and finds the entry that it exports as `symbol`.
 ///
 /// All symbols are resolved at once, so that a missing one is found here. The symbols stay private
 /// to the library. The library is never unloaded, not even when its entry is refused: objects and
 /// texts from it may be in use anywhere, and threads that it started may run.
 ///
 /// # Errors
-/// The message of the system's loader, when it refuses the library.
+/// The message of the system's loader, when it refuses the library; or that the symbol is not one of an entry.
 pub fn load(file: &Path, symbol: &str) -> Result<Entry, String> {
+    if !symbol.starts_with(SYMBOL_PREFIX) {
+        return Err(format!("`{symbol}` is not the symbol of a plugin's entry"));
+    }
     // SAFETY: the library's initialisers run. A user who trusts a plugin vouches that they behave.
     // The caller has checked that the file is complete and for this machine.
     let library = unsafe { open_library(file) }.map_err(reason)?;

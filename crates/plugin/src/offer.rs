@@ -8,7 +8,7 @@ use turnpath_core::{
 };
 
 use crate::abi::catalogue::CatalogueEntry;
-use crate::abi::entry;
+use crate::abi::entry::{self, Accepted};
 use crate::abi::request::AbiRequest;
 use crate::abi::root::{self, Constructed, RootRef};
 use crate::calls::Callee;
@@ -165,10 +165,13 @@ pub fn linked() -> Vec<Offer> {
 /// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`](crate::head::SYMBOL_PREFIX),
 /// in a library that stays loaded for the rest of the program.
 #[allow(unsafe_code)] // the boundary: the caller guarantees the properties of the library
-pub unsafe fn open(entry: *const u8) -> std::result::Result<Vec<Offer>, OpenError> {
+pub unsafe fn open(
+    entry: *const u8,
+    accepted: Accepted,
+) -> std::result::Result<Vec<Offer>, OpenError> {
     let opened = || {
         // SAFETY: the caller makes the same promise.
-        let opened = unsafe { entry::open(entry) };
+        let opened = unsafe { entry::open(entry, accepted) };
         Ok(opened.map(|(root, entries)| offers(root, entries)))
     };
     // The comparison of layouts panics where a description refers to what is not in it.

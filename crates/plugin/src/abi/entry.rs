@@ -58,15 +58,27 @@ pub fn own() -> (RootRef, Vec<CatalogueEntry>) {
     )
 }
 
+/// Which libraries are opened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Accepted {
+    /// Those that have nothing that this program lacks. Such libraries may be opened side by side.
+    Older,
+    /// Newer ones too. They are compared with each other, so they are opened one after the other.
+    Any,
+}
+
 /// Opens the entry that a library exports, and lists the strategies of its own crate.
 ///
 /// # Safety
 /// `entry` is the address of a symbol whose name begins with
 /// [`SYMBOL_PREFIX`](crate::head::SYMBOL_PREFIX), in a library that stays loaded for the rest of the
 /// program.
-pub unsafe fn open(entry: *const u8) -> Result<(RootRef, Vec<CatalogueEntry>), OpenError> {
+pub unsafe fn open(
+    entry: *const u8,
+    accepted: Accepted,
+) -> Result<(RootRef, Vec<CatalogueEntry>), OpenError> {
     // SAFETY: the caller makes the same promise.
-    let (crate_name, root) = unsafe { open_root::<RootRef>(entry) }?;
+    let (crate_name, root) = unsafe { open_root::<RootRef>(entry, accepted) }?;
     let entries = entries(&root.catalogue()(), |name| name == crate_name);
     let entries = entries.map_err(|error| match error {
         CatalogueError::Damaged => OpenError::NotAPlugin,
@@ -81,6 +93,7 @@ pub unsafe fn open(entry: *const u8) -> Result<(RootRef, Vec<CatalogueEntry>), O
 /// That of [`open`].
 pub unsafe fn open_root<R: StableAbi + PrefixRefTrait>(
     entry: *const u8,
+    accepted: Accepted,
 ) -> Result<(&'static str, R), OpenError> {
     // SAFETY: every version of a plugin entry begins with a head, and the symbol's name marks an
     // entry.
@@ -94,7 +107,11 @@ pub unsafe fn open_root<R: StableAbi + PrefixRefTrait>(
         .upgrade()
         .map_err(|error| OpenError::Layout(error.to_string()))?;
     let layout = library.layout().ok_or(OpenError::NotAPlugin)?;
-    layout::check::<R>(layout).map_err(OpenError::Layout)?;
+    let checked = match accepted {
+        Accepted::Older => layout::check_as_older::<R>(layout),
+        Accepted::Any => layout::check::<R>(layout),
+    };
+    checked.map_err(OpenError::Layout)?;
     // SAFETY: the layouts were just compared.
     let root = unsafe { library.unchecked_layout::<R>() };
     let root = root.map_err(|error| OpenError::Layout(error.to_string()))?;

@@ -7,7 +7,7 @@ use abi_stable::abi_stability::abi_checking::check_layout_compatibility;
 use abi_stable::library::RawLibrary;
 use turnpath_core::{Continuation, Params, Revolutions};
 
-use super::entry::open_root;
+use super::entry::{Accepted, open_root};
 use super::layout;
 use super::reply::{Returned, result};
 use super::request::AbiRequest;
@@ -93,7 +93,7 @@ fn root_of_a_library() -> newer::RootRef {
     let entry = entry.unwrap();
     std::mem::forget(library);
     // SAFETY: the symbol has the prefix, and the library stays loaded.
-    unsafe { open_root(entry) }.unwrap().1
+    unsafe { open_root(entry, Accepted::Older) }.unwrap().1
 }
 
 #[test]
