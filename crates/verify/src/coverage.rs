@@ -140,12 +140,64 @@ impl Default for AxisPasses {
 
 impl AxisPasses {
     fn append(&mut self, next: &Passes) {
-        for (number, pass) in (next.first..).zip(&next.passes) {
-            let section = number.rem_euclid(SECTIONS) as usize;
-            if let Some(line) = self.lines.get_mut(section % HALF_TURN) {
-                line.push(section >= HALF_TURN, *pass);
+        let begin = next.first.rem_euclid(HALF_TURN as i64) as usize;
+        let mut looks: Vec<LineLook> = self.lines.iter().map(AxisLine::look).collect();
+        // Passes go on from line to line.
+        for (turn, passes) in next.passes.chunks(HALF_TURN).enumerate() {
+            let (behind, before) = looks.split_at_mut(begin);
+            for (look, pass) in before.iter_mut().chain(behind).zip(passes) {
+                look.pass(turn, pass.centre.x);
             }
         }
+        for (offset, number) in (0..next.passes.len().min(HALF_TURN)).zip(next.first..) {
+            let line = (begin + offset) % HALF_TURN;
+            let passes = OnLine {
+                all: &next.passes[offset..],
+                first: number,
+            };
+            self.lines[line].append(&looks[line], &passes);
+        }
+    }
+}
+
+/// The passes of a block on one line.
+struct OnLine<'a> {
+    /// The first of them, and all that follow it on any line.
+    all: &'a [Pass],
+    /// The number of the section of the first one.
+    first: i64,
+}
+
+impl OnLine<'_> {
+    fn count(&self) -> usize {
+        self.all.len().div_ceil(HALF_TURN)
+    }
+
+    /// A pass, and whether it belongs to θ + π.
+    fn get(&self, number: usize) -> Option<(bool, Pass)> {
+        let pass = self.all.get(number * HALF_TURN)?;
+        let section = (self.first + (number * HALF_TURN) as i64).rem_euclid(SECTIONS);
+        Some((section as usize >= HALF_TURN, *pass))
+    }
+}
+
+/// A look at the next passes of a line.
+struct LineLook {
+    /// X of the pass before, mm; infinite before the first one.
+    before: f64,
+    /// Smallest |sum| so far, mm.
+    least: f64,
+    /// Which of the passes has it; `None` if it is one of those before.
+    at: Option<usize>,
+}
+
+impl LineLook {
+    fn pass(&mut self, number: usize, x: f64) {
+        let sum = (self.before + x).abs();
+        if sum < self.least {
+            (self.least, self.at) = (sum, Some(number));
+        }
+        self.before = x;
     }
 }
 
@@ -177,16 +229,44 @@ impl Default for AxisLine {
 }
 
 impl AxisLine {
-    /// Adds the next pass; `far` says whether it belongs to θ + π.
-    fn push(&mut self, far: bool, pass: Pass) {
-        let before = self.recent.back().map(|(_, before)| before.centre.x);
+    /// A look at the passes that follow.
+    fn look(&self) -> LineLook {
+        let last = self.recent.back();
+        LineLook {
+            before: last.map_or(f64::INFINITY, |(_, last)| last.centre.x),
+            least: self.least,
+            at: None,
+        }
+    }
+
+    /// Appends the passes of a block, after a look at all of them. Only those count that lie around the
+    /// smallest sum, here or before, and the last ones.
+    fn append(&mut self, look: &LineLook, passes: &OnLine<'_>) {
+        self.least = look.least;
+        let around = look.at.map_or(0..0, |at| {
+            at.saturating_sub(INNERMOST + BEYOND)..at + 1 + BEYOND
+        });
+        let last = passes.count().saturating_sub(INNERMOST + BEYOND)..passes.count();
+        let mut next = 0;
+        for range in [0..BEYOND, around, last] {
+            for number in range.start.max(next)..range.end {
+                let Some(pass) = passes.get(number) else {
+                    return;
+                };
+                self.push(pass, look.at == Some(number));
+            }
+            next = next.max(range.end);
+        }
+    }
+
+    /// Adds a pass; `is_least` says whether its sum is the smallest of all.
+    fn push(&mut self, pass: (bool, Pass), is_least: bool) {
         if self.recent.len() == INNERMOST + BEYOND {
             self.recent.pop_front();
         }
-        self.recent.push_back((far, pass));
-        let sum = before.map_or(f64::INFINITY, |before| (before + pass.centre.x).abs());
-        if sum < self.least {
-            (self.least, self.missing) = (sum, BEYOND);
+        self.recent.push_back(pass);
+        if is_least {
+            self.missing = BEYOND;
         } else if self.missing > 0 {
             self.missing -= 1;
             if self.missing == 0 {
@@ -306,14 +386,40 @@ mod tests {
             &[1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0],
         ];
         for path in paths {
-            let mut line = AxisLine::default();
-            for (end, x) in (1..).zip(path) {
-                line.push(false, pass(*x));
-                let found = line.meeting();
+            for block in [90, 180, 613, 4000] {
+                assert_meetings(path, block);
+            }
+        }
+        // As a path inward: the sums fall over many turns, and rise behind the axis.
+        let long: Vec<f64> = (0..70)
+            .map(|turn| f64::from(50 - turn) * if turn % 2 == 0 { 1.0 } else { -1.001 })
+            .collect();
+        for block in [180, 1000, 2777, 100_000] {
+            assert_meetings(&long, block);
+        }
+    }
+
+    /// Every line through the axis has the passes of `path`. They come in blocks of so many passes.
+    #[track_caller]
+    fn assert_meetings(path: &[f64], block: usize) {
+        const FIRST: usize = 777;
+        let all = (0..path.len() * HALF_TURN).map(|i| pass(path[i / HALF_TURN]));
+        let all: Vec<Pass> = all.collect();
+        let mut axis = AxisPasses::default();
+        let mut count = 0;
+        for passes in all.chunks(block) {
+            axis.append(&Passes {
+                first: (FIRST + count) as i64,
+                passes: passes.to_vec(),
+            });
+            count += passes.len();
+            for offset in 0..HALF_TURN {
+                let on_line = count.saturating_sub(offset).div_ceil(HALF_TURN);
+                let found = axis.lines[(FIRST + offset) % HALF_TURN].meeting();
                 let found = found.iter().map(|(_, pass)| pass.centre.x.to_bits());
-                let expected = meeting_among(&path[..end]);
+                let expected = meeting_among(&path[..on_line]);
                 let expected = expected.iter().map(|x| x.to_bits());
-                assert!(found.eq(expected), "{path:?} up to {end}");
+                assert!(found.eq(expected), "{path:?}: {count} in blocks of {block}");
             }
         }
     }

@@ -152,15 +152,15 @@ impl Meter {
             ..BlockFigures::default()
         };
         block.passes = Passes::of(touch, points)?;
-        let mut cusps = SectionHeights::default();
+        let mut heights = SectionHeights::default();
         block.passes.for_each_cusp(touch, |cusp| {
             block.residual.append(&cusp);
             if wants_sketch {
-                cusps.include(&cusp);
+                heights.include(&cusp);
             }
         })?;
         if wants_sketch {
-            block.sketch = BlockSketch::of(points, &block.per_segment, cusps);
+            block.sketch = BlockSketch::of(points, &block.per_segment, heights);
         }
         block.sections = SectionPasses::of(touch, &Fan::WHOLE, points)?;
         if !touch.subject().compensates_nose {
@@ -182,10 +182,11 @@ impl Meter {
     /// Appends the path's next block. The block begins with the last control point of the block
     /// before it.
     pub fn append(&mut self, next: BlockFigures) -> Result<()> {
-        let (mut joint, mut cusps) = (ResidualFigures::default(), SectionHeights::default());
+        let mut joint = ResidualFigures::default();
+        let mut joint_heights = SectionHeights::default();
         self.passes.follow(&self.touch, &next.passes, |cusp| {
             joint.append(&cusp);
-            cusps.include(&cusp);
+            joint_heights.include(&cusp);
         })?;
         let Self {
             figures,
@@ -206,7 +207,7 @@ impl Meter {
                 figures.cutting_speed.append(&next.cutting_speed);
                 figures.residual.append(&next.residual);
                 figures.residual.append(&joint);
-                sketch.append(&next.sketch, &cusps);
+                sketch.append(&next.sketch, &joint_heights);
                 lines.append(next.sections);
                 if let (Some(lines), Some(passes)) = (real_nose, next.real_nose) {
                     lines.append(passes);

@@ -221,8 +221,8 @@ fn tangent_centre(touch: &Touch, radius: f64) -> Point {
     Point::new(touch.foot - radius * touch.slope / w, touch.z + radius / w)
 }
 
-/// Calls `take` with each cusp between a pass of `earlier` and the pass `turn` entries further on in
-/// `all` that stands on the part.
+/// Calls `take` with the cusps that stand on the part: each lies between a pass of `earlier` and the pass
+/// `turn` entries further on in `all`.
 fn for_each_between(
     touch: &FirstTouch,
     earlier: &[Pass],
@@ -237,7 +237,7 @@ fn for_each_between(
         true => usize::MAX,
         false => BATCH,
     };
-    let mut take = |cusp: Option<_>| cusp.into_iter().for_each(&mut take);
+    let mut take_if_on_part = |cusp: Option<_>| cusp.into_iter().for_each(&mut take);
     let (mut theta, mut cusps) = (Vec::new(), Vec::new());
     for ((number, one), other) in (first..).zip(earlier).zip(all.iter().skip(turn)) {
         let same_side = one.x * other.x >= 0.0;
@@ -247,12 +247,12 @@ fn for_each_between(
         theta.push(angle_of(number));
         cusps.push(one.cusp(other, tool));
         if cusps.len() == batch {
-            for_each(touch, &theta, &cusps, &mut take)?;
+            measure_each(touch, &theta, &cusps, &mut take_if_on_part)?;
             theta.clear();
             cusps.clear();
         }
     }
-    for_each(touch, &theta, &cusps, take)
+    measure_each(touch, &theta, &cusps, take_if_on_part)
 }
 
 /// The residual of those of these cusps that stand on the part, each at its own angle. A cusp stands
@@ -264,7 +264,7 @@ pub(crate) fn highest(
 ) -> Result<ResidualFigures> {
     let mut figures = ResidualFigures::default();
     let append = |cusp: Option<_>| cusp.iter().for_each(|cusp| figures.append(cusp));
-    for_each(touch, theta, cusps, append)?;
+    measure_each(touch, theta, cusps, append)?;
     Ok(figures)
 }
 
@@ -287,12 +287,12 @@ pub fn cusp_heights(
         .collect();
     let mut heights = Vec::with_capacity(cusps.len());
     let push = |cusp: Option<ResidualFigures>| heights.push(cusp.map(|cusp| cusp.max));
-    for_each(touch, theta, &cusps, push)?;
+    measure_each(touch, theta, &cusps, push)?;
     Ok(heights)
 }
 
 /// Calls `take` with the residual of each of these cusps alone; `None` for a cusp off the part.
-fn for_each(
+fn measure_each(
     touch: &FirstTouch,
     theta: &[f64],
     cusps: &[Cusp],
