@@ -66,8 +66,9 @@ impl Extreme {
     }
 }
 
-/// Measures K quantities at each (θ, ρ) of a batch. All slices have one length. The measure itself
-/// must report a point without a value, since NaN is never the largest value.
+/// Measures K quantities at each (θ, ρ) of a batch. All slices have one length. A batch has several rows of
+/// the grid, and its error is that of the whole batch. The measure itself must report a point without a value,
+/// since NaN is never the largest value.
 pub type Measure<'a, const K: usize> =
     dyn FnMut(&[f64], &[f64], &mut [[f64; K]]) -> Result<()> + 'a;
 

@@ -120,7 +120,7 @@ impl Job {
         });
         let path = self.recipe.path().to_owned();
         let stretches = stretches.map_err(|error| FileError { path, error })?;
-        let of_path = stretches.iter().map(|rows| rows.of_path(rows.amount));
+        let of_path = stretches.iter().map(|rows| rows.of_path(rows.measured));
         Ok(of_path.sum())
     }
 

@@ -121,7 +121,7 @@ impl Program {
             sampled_stretches(sample, |block| Ok(TextSize::of(&self.lines(block)?.text)))?;
         let of_path = |what: fn(TextSize) -> u64| {
             let each = stretches.iter();
-            each.map(|lines| lines.of_path(what(lines.amount)))
+            each.map(|lines| lines.of_path(what(lines.measured)))
                 .sum::<f64>() as u64
         };
         let lines = TextSize {
@@ -214,7 +214,7 @@ impl Program {
         let of = |wanted: Section| {
             let wanted = sampled.iter().filter(move |one| one.section == wanted);
             wanted
-                .map(|one| one.amount)
+                .map(|one| one.measured)
                 .filter(|lines| lines.blocks > 0)
         };
         // The first part begins with the lead-in; a lead-out may be cut anywhere.

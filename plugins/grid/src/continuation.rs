@@ -10,20 +10,20 @@ pub struct Continuation {
     trend: Trend,
     columns: usize,
     rows: usize,
-    /// The coefficients of the outermost columns, from the first row on, less the trend.
-    of_columns: Outermost,
-    /// Those of the outermost rows, from the first column on.
-    of_rows: Outermost,
+    /// What the coefficients of the outermost columns differ from the trend by, from the first row on.
+    at_columns: [Edge; 2],
+    /// The same for the outermost rows, from the first column on.
+    at_rows: [Edge; 2],
 }
 
-/// What belongs to the first and the second number, and to the last and the one before it.
-type Outermost = [[Vec<f64>; 2]; 2];
+/// The outermost column (row) on one side, and the one within it.
+type Edge = [Vec<f64>; 2];
 
-/// The two numbers of columns (rows) whose straight line goes through a place, with their shares.
+/// The two columns (rows) whose straight line goes through a place, with their shares.
 #[derive(Clone, Copy)]
-struct Line {
-    numbers: [(usize, f64); 2],
-    /// The side on which the place lies beyond all numbers: 0 before them, 1 behind them.
+struct Extrapolation {
+    from: [(usize, f64); 2],
+    /// Whose [`Edge`] they are, where the place lies beyond all: 0 before the first, 1 behind the last.
     side: Option<usize>,
 }
 
@@ -44,8 +44,8 @@ impl Continuation {
         let of_column = |column| (0..rows).map(|row| off(column, row)).collect();
         let of_row = |row| (0..columns).map(|column| off(column, row)).collect();
         Self {
-            of_columns: outermost(columns).map(|pair| pair.map(of_column)),
-            of_rows: outermost(rows).map(|pair| pair.map(of_row)),
+            at_columns: outermost(columns).map(|pair| pair.map(of_column)),
+            at_rows: outermost(rows).map(|pair| pair.map(of_row)),
             trend,
             columns,
             rows,
@@ -54,39 +54,40 @@ impl Continuation {
 
     /// The coefficient at a column and row, which are whole. `own` has those of the sheet.
     pub fn at(&self, column: f64, row: f64, own: impl Fn(usize, usize) -> f64) -> f64 {
-        let (across, down) = (Line::at(column, self.columns), Line::at(row, self.rows));
+        let across = Extrapolation::to(column, self.columns);
+        let down = Extrapolation::to(row, self.rows);
         let mut rest = 0.0;
-        for (j, (row, share)) in down.numbers.into_iter().enumerate() {
-            for (i, (column, part)) in across.numbers.into_iter().enumerate() {
+        for (j, (row, of_row)) in down.from.into_iter().enumerate() {
+            for (i, (column, of_column)) in across.from.into_iter().enumerate() {
                 let off = match (across.side, down.side) {
-                    (Some(side), _) => self.of_columns[side][i][row],
-                    (None, Some(side)) => self.of_rows[side][j][column],
+                    (Some(side), _) => self.at_columns[side][i][row],
+                    (None, Some(side)) => self.at_rows[side][j][column],
                     (None, None) => own(column, row) - self.trend.at(column as f64, row as f64),
                 };
-                rest += share * part * off;
+                rest += of_row * of_column * off;
             }
         }
         self.trend.at(column, row) + rest
     }
 }
 
-impl Line {
-    fn at(place: f64, count: usize) -> Self {
+impl Extrapolation {
+    fn to(place: f64, count: usize) -> Self {
         let last = count - 1;
         if place < 0.0 {
             Self {
-                numbers: [(0, 1.0 - place), (1, place)],
+                from: [(0, 1.0 - place), (1, place)],
                 side: Some(0),
             }
         } else if place > last as f64 {
             let beyond = place - last as f64;
             Self {
-                numbers: [(last, 1.0 + beyond), (last - 1, -beyond)],
+                from: [(last, 1.0 + beyond), (last - 1, -beyond)],
                 side: Some(1),
             }
         } else {
             Self {
-                numbers: [(place as usize, 1.0), (place as usize, 0.0)],
+                from: [(place as usize, 1.0), (place as usize, 0.0)],
                 side: None,
             }
         }
@@ -118,17 +119,32 @@ mod tests {
         }
     }
 
+    /// Numbers that jump. At each side and corner the plain formula: what the two outermost columns and
+    /// rows differ by goes on as a straight line along each axis.
     #[test]
-    fn what_differs_from_the_trend_goes_on_straight_from_the_last_two() {
-        let mut sheet = Sheet::of_values(9, 7, |u, v| ((3.0 * u + 5.0 * v) % 4.0) - 1.5);
-        sheet.values[4 * 9 + 8] = 3.0;
+    fn what_differs_from_the_trend_goes_on_straight_on_every_side() {
+        let sheet = Sheet::of_values(9, 7, |u, v| (3.7 * u * u + 5.3 * v + 2.9 * u * v) % 4.0);
         let continuation = Continuation::of(&sheet);
-        let own = |column: usize, row: usize| sheet.values[row * 9 + column];
         let trend = Trend::of(&sheet);
+        let own = |column: usize, row: usize| sheet.values[row * 9 + column];
         let off =
             |column: usize, row: usize| own(column, row) - trend.at(column as f64, row as f64);
-        let wanted = trend.at(10.0, 4.0) + 3.0 * off(8, 4) - 2.0 * off(7, 4);
-        let found = continuation.at(10.0, 4.0, own);
-        assert!((found - wanted).abs() < 1e-13, "{found} {wanted}");
+        let along = |at: f64, [outer, inner]: [usize; 2], of: &dyn Fn(usize) -> f64| {
+            let beyond = (at - outer as f64).abs();
+            (1.0 + beyond) * of(outer) - beyond * of(inner)
+        };
+        let columns = [(-3.0, [0, 1]), (4.0, [4, 4]), (10.0, [8, 7])];
+        let rows = [(-2.0, [0, 1]), (2.0, [2, 2]), (9.0, [6, 5])];
+        for (column, from_columns) in columns {
+            for (row, from_rows) in rows {
+                let of_row = |row| along(column, from_columns, &|column| off(column, row));
+                let wanted = trend.at(column, row) + along(row, from_rows, &of_row);
+                let found = continuation.at(column, row, own);
+                assert!(
+                    (found - wanted).abs() < 1e-11,
+                    "{column} {row}: {found} {wanted}"
+                );
+            }
+        }
     }
 }
