@@ -141,34 +141,34 @@ impl Default for AxisPasses {
 impl AxisPasses {
     fn append(&mut self, next: &Passes) {
         let begin = next.first.rem_euclid(HALF_TURN as i64) as usize;
-        let mut looks: Vec<LineLook> = self.lines.iter().map(AxisLine::look).collect();
-        // Passes go on from line to line.
-        for (turn, passes) in next.passes.chunks(HALF_TURN).enumerate() {
-            let (behind, before) = looks.split_at_mut(begin);
-            for (look, pass) in before.iter_mut().chain(behind).zip(passes) {
-                look.pass(turn, pass.centre.x);
+        let mut searches: Vec<SumSearch> = self.lines.iter().map(AxisLine::search).collect();
+        // Each pass lies on the line behind that of the pass before.
+        for (number, passes) in next.passes.chunks(HALF_TURN).enumerate() {
+            let (second, first) = searches.split_at_mut(begin);
+            for (search, pass) in first.iter_mut().chain(second).zip(passes) {
+                search.include(number, pass.centre.x);
             }
         }
         for (offset, number) in (0..next.passes.len().min(HALF_TURN)).zip(next.first..) {
             let line = (begin + offset) % HALF_TURN;
-            let passes = OnLine {
+            let passes = LinePasses {
                 all: &next.passes[offset..],
                 first: number,
             };
-            self.lines[line].append(&looks[line], &passes);
+            self.lines[line].append(&searches[line], &passes);
         }
     }
 }
 
 /// The passes of a block on one line.
-struct OnLine<'a> {
-    /// The first of them, and all that follow it on any line.
+struct LinePasses<'a> {
+    /// Passes of the block on all lines, from the first one on this line on.
     all: &'a [Pass],
-    /// The number of the section of the first one.
+    /// The number of the section of that pass.
     first: i64,
 }
 
-impl OnLine<'_> {
+impl LinePasses<'_> {
     fn count(&self) -> usize {
         self.all.len().div_ceil(HALF_TURN)
     }
@@ -181,18 +181,18 @@ impl OnLine<'_> {
     }
 }
 
-/// A look at the next passes of a line.
-struct LineLook {
+/// The search for the smallest sum among the passes of a line.
+struct SumSearch {
     /// X of the pass before, mm; infinite before the first one.
     before: f64,
     /// Smallest |sum| so far, mm.
     least: f64,
-    /// Which of the passes has it; `None` if it is one of those before.
+    /// Which pass of the block has it; `None` if it lies before the block.
     at: Option<usize>,
 }
 
-impl LineLook {
-    fn pass(&mut self, number: usize, x: f64) {
+impl SumSearch {
+    fn include(&mut self, number: usize, x: f64) {
         let sum = (self.before + x).abs();
         if sum < self.least {
             (self.least, self.at) = (sum, Some(number));
@@ -229,21 +229,21 @@ impl Default for AxisLine {
 }
 
 impl AxisLine {
-    /// A look at the passes that follow.
-    fn look(&self) -> LineLook {
+    /// The search that goes on from here.
+    fn search(&self) -> SumSearch {
         let last = self.recent.back();
-        LineLook {
+        SumSearch {
             before: last.map_or(f64::INFINITY, |(_, last)| last.centre.x),
             least: self.least,
             at: None,
         }
     }
 
-    /// Appends the passes of a block, after a look at all of them. Only those count that lie around the
-    /// smallest sum, here or before, and the last ones.
-    fn append(&mut self, look: &LineLook, passes: &OnLine<'_>) {
-        self.least = look.least;
-        let around = look.at.map_or(0..0, |at| {
+    /// Appends the passes of a block, which were searched. Only those are looked at that lie around the
+    /// smallest sum, in this block or before it, and the last ones.
+    fn append(&mut self, search: &SumSearch, passes: &LinePasses<'_>) {
+        self.least = search.least;
+        let around = search.at.map_or(0..0, |at| {
             at.saturating_sub(INNERMOST + BEYOND)..at + 1 + BEYOND
         });
         let last = passes.count().saturating_sub(INNERMOST + BEYOND)..passes.count();
@@ -253,7 +253,7 @@ impl AxisLine {
                 let Some(pass) = passes.get(number) else {
                     return;
                 };
-                self.push(pass, look.at == Some(number));
+                self.push(pass, search.at == Some(number));
             }
             next = next.max(range.end);
         }
@@ -420,6 +420,10 @@ mod tests {
                 let expected = meeting_among(&path[..on_line]);
                 let expected = expected.iter().map(|x| x.to_bits());
                 assert!(found.eq(expected), "{path:?}: {count} in blocks of {block}");
+                let last = FIRST + offset + HALF_TURN * on_line.saturating_sub(1);
+                let far = axis.lines[(FIRST + offset) % HALF_TURN].recent.back();
+                let far = far.is_some_and(|(far, _)| *far);
+                assert_eq!(far, on_line > 0 && last % (2 * HALF_TURN) >= HALF_TURN);
             }
         }
     }
