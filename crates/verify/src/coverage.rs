@@ -19,10 +19,14 @@ use crate::touch::FirstTouch;
 const HALF_TURN: usize = SECTIONS as usize / 2;
 /// Passes of a line, two per turn, that are kept up to the point where its two sides meet. A spiral
 /// that ends at the axis has its widest gap between the second and the third pass of a line. A
-/// spiral whose feed runs out at the axis has it somewhat further out.
+/// spiral whose feed runs out at the axis has it somewhat further out. As many are looked at before a smallest
+/// sum, and at the end of a block, since the path may end there.
 const INNERMOST: usize = 6;
 /// Passes of a line that are kept after that point, if the path goes on so far.
 const BEYOND: usize = 4;
+/// Passes of a line in a block from which it is known before which of them are kept. To look at fewer of them
+/// twice takes longer than to keep each until the next ones come.
+const MANY: usize = 2 * (INNERMOST + BEYOND);
 
 /// The uncut heights that a path leaves, and how far it goes beyond the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -140,32 +144,59 @@ impl Default for AxisPasses {
 
 impl AxisPasses {
     fn append(&mut self, next: &Passes) {
-        let begin = next.first.rem_euclid(HALF_TURN as i64) as usize;
+        match next.passes.len() < MANY * HALF_TURN {
+            true => self.append_few(next),
+            false => self.append_many(next),
+        }
+    }
+
+    fn append_few(&mut self, next: &Passes) {
+        for (pass, section) in next.passes.iter().zip(next.first..) {
+            let line = &mut self.lines[line_of(section)];
+            let mut search = line.search();
+            search.include(0, pass.centre.x);
+            line.least = search.least;
+            line.push((is_far(section), *pass), search.at.is_some());
+        }
+    }
+
+    fn append_many(&mut self, next: &Passes) {
+        let begin = line_of(next.first);
         let mut searches: Vec<SumSearch> = self.lines.iter().map(AxisLine::search).collect();
         // Each pass lies on the line behind that of the pass before.
-        for (number, passes) in next.passes.chunks(HALF_TURN).enumerate() {
+        for (turn, passes) in next.passes.chunks(HALF_TURN).enumerate() {
             let (second, first) = searches.split_at_mut(begin);
             for (search, pass) in first.iter_mut().chain(second).zip(passes) {
-                search.include(number, pass.centre.x);
+                search.include(turn, pass.centre.x);
             }
         }
-        for (offset, number) in (0..next.passes.len().min(HALF_TURN)).zip(next.first..) {
-            let line = (begin + offset) % HALF_TURN;
+        for (offset, section) in (0..next.passes.len().min(HALF_TURN)).zip(next.first..) {
+            let line = line_of(section);
             let passes = LinePasses {
                 all: &next.passes[offset..],
-                first: number,
+                section,
             };
             self.lines[line].append(&searches[line], &passes);
         }
     }
 }
 
+/// The line through the axis on which a section of the path lies.
+fn line_of(section: i64) -> usize {
+    section.rem_euclid(HALF_TURN as i64) as usize
+}
+
+/// Whether a section belongs to θ + π of its line.
+fn is_far(section: i64) -> bool {
+    section.rem_euclid(SECTIONS) as usize >= HALF_TURN
+}
+
 /// The passes of a block on one line.
 struct LinePasses<'a> {
     /// Passes of the block on all lines, from the first one on this line on.
     all: &'a [Pass],
-    /// The number of the section of that pass.
-    first: i64,
+    /// The section of that pass.
+    section: i64,
 }
 
 impl LinePasses<'_> {
@@ -175,9 +206,9 @@ impl LinePasses<'_> {
 
     /// A pass, and whether it belongs to θ + π.
     fn get(&self, number: usize) -> Option<(bool, Pass)> {
-        let pass = self.all.get(number * HALF_TURN)?;
-        let section = (self.first + (number * HALF_TURN) as i64).rem_euclid(SECTIONS);
-        Some((section as usize >= HALF_TURN, *pass))
+        let sections_before = number * HALF_TURN;
+        let pass = self.all.get(sections_before)?;
+        Some((is_far(self.section + sections_before as i64), *pass))
     }
 }
 
@@ -207,7 +238,8 @@ impl SumSearch {
 /// the sides of each line meet in a turn of their own.
 #[derive(Debug, Clone)]
 struct AxisLine {
-    /// The last passes, those of five turns at most, each with whether it belongs to θ + π.
+    /// The last passes that were looked at, those of five turns at most, each with whether it belongs to
+    /// θ + π.
     recent: VecDeque<(bool, Pass)>,
     /// Smallest |sum| so far, mm.
     least: f64,
@@ -239,14 +271,15 @@ impl AxisLine {
         }
     }
 
-    /// Appends the passes of a block, which were searched. Only those are looked at that lie around the
-    /// smallest sum, in this block or before it, and the last ones.
+    /// Appends the passes of a block, which were searched. Only those are looked at that a meeting may have:
+    /// those after a smallest sum before the block, those around the smallest sum of the block, and the last
+    /// ones.
     fn append(&mut self, search: &SumSearch, passes: &LinePasses<'_>) {
         self.least = search.least;
         let around = search.at.map_or(0..0, |at| {
-            at.saturating_sub(INNERMOST + BEYOND)..at + 1 + BEYOND
+            (at + 1).saturating_sub(INNERMOST)..at + 1 + BEYOND
         });
-        let last = passes.count().saturating_sub(INNERMOST + BEYOND)..passes.count();
+        let last = passes.count().saturating_sub(INNERMOST)..passes.count();
         let mut next = 0;
         for range in [0..BEYOND, around, last] {
             for number in range.start.max(next)..range.end {
@@ -332,6 +365,8 @@ pub(crate) fn lowest(cubic: &Cubic) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::Range;
+
     use super::*;
 
     #[test]
@@ -358,8 +393,8 @@ mod tests {
         pass
     }
 
-    /// The passes where the two sides meet, found among all passes after the fact.
-    fn meeting_among(x: &[f64]) -> &[f64] {
+    /// The numbers of the passes where the two sides meet, found among all passes after the fact.
+    fn meeting_among(x: &[f64]) -> Range<usize> {
         let mut least = f64::INFINITY;
         let mut around = 0..BEYOND;
         for (i, pair) in (1..).zip(x.windows(2)) {
@@ -369,8 +404,10 @@ mod tests {
                 around = (i + 1_usize).saturating_sub(INNERMOST)..i + 1 + BEYOND;
             }
         }
-        let last = &x[x.len().saturating_sub(INNERMOST)..];
-        x.get(around).unwrap_or(last)
+        match around.end <= x.len() {
+            true => around,
+            false => x.len().saturating_sub(INNERMOST)..x.len(),
+        }
     }
 
     #[test]
@@ -386,15 +423,14 @@ mod tests {
             &[1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0],
         ];
         for path in paths {
-            for block in [90, 180, 613, 4000] {
+            for block in [90, 180, 613, 1620, 4000] {
                 assert_meetings(path, block);
             }
         }
-        // As a path inward: the sums fall over many turns, and rise behind the axis.
-        let long: Vec<f64> = (0..70)
-            .map(|turn| f64::from(50 - turn) * if turn % 2 == 0 { 1.0 } else { -1.001 })
-            .collect();
-        for block in [180, 1000, 2777, 100_000] {
+        // As a path inward: the sums fall over many turns, and rise behind the axis. Some blocks end just
+        // behind the smallest sum.
+        let long: Vec<f64> = (0..70).map(|turn| 50.3 - f64::from(turn)).collect();
+        for block in [180, 1000, 2777, 3600, 4000, 9180, 9360, 9540, 100_000] {
             assert_meetings(&long, block);
         }
     }
@@ -416,14 +452,14 @@ mod tests {
             for offset in 0..HALF_TURN {
                 let on_line = count.saturating_sub(offset).div_ceil(HALF_TURN);
                 let found = axis.lines[(FIRST + offset) % HALF_TURN].meeting();
-                let found = found.iter().map(|(_, pass)| pass.centre.x.to_bits());
-                let expected = meeting_among(&path[..on_line]);
-                let expected = expected.iter().map(|x| x.to_bits());
+                let found = found
+                    .iter()
+                    .map(|(far, pass)| (*far, pass.centre.x.to_bits()));
+                let expected = meeting_among(&path[..on_line]).map(|i| {
+                    let half_turns = (FIRST + offset) / HALF_TURN + i;
+                    (half_turns % 2 == 1, path[i].to_bits())
+                });
                 assert!(found.eq(expected), "{path:?}: {count} in blocks of {block}");
-                let last = FIRST + offset + HALF_TURN * on_line.saturating_sub(1);
-                let far = axis.lines[(FIRST + offset) % HALF_TURN].recent.back();
-                let far = far.is_some_and(|(far, _)| *far);
-                assert_eq!(far, on_line > 0 && last % (2 * HALF_TURN) >= HALF_TURN);
             }
         }
     }
