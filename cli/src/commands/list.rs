@@ -25,7 +25,7 @@ pub fn list(args: &ListArgs, catalogue: Catalogue) -> Outcome {
         .filter(|slot| only.is_none_or(|only| only == *slot))
         .collect();
     match args.format {
-        Format::Json => print(&to_json(&StrategyList::new(&catalogue, &slots)))?,
+        Format::Json => print(&to_json(&StrategyList::new(&catalogue, &slots)?))?,
         Format::Human => print(&text(&catalogue, &slots))?,
     }
     Ok(Status::Holds)
@@ -65,8 +65,8 @@ fn text(catalogue: &Catalogue, slots: &[Slot]) -> String {
 /// Prints the lock of the loaded plugins, or writes it to a file.
 fn lock(catalogue: &Catalogue, file: Option<&Path>) -> Outcome {
     match file {
-        Some(file) if is_standard(file) => print(&PluginsLock::text_of(catalogue))?,
-        None => print(&PluginsLock::text_of(catalogue))?,
+        Some(file) if is_standard(file) => print(&PluginsLock::text_of(catalogue)?)?,
+        None => print(&PluginsLock::text_of(catalogue)?)?,
         Some(file) => PluginsLock::write(catalogue, file)?,
     }
     Ok(Status::Holds)

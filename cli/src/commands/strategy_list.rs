@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use turnpath::declared::{default, kind_with_example, limits};
-use turnpath::{Catalogue, Strategy};
+use turnpath::{Catalogue, LoadError, Strategy};
 use turnpath_core::{ParamInfo, Slot};
 
 /// The strategies of some slots.
@@ -43,22 +43,27 @@ struct ParamEntry {
 
 impl StrategyList {
     /// The strategies of these slots, in the order of `turnpath list`.
-    pub fn new(catalogue: &Catalogue, slots: &[Slot]) -> Self {
+    ///
+    /// # Errors
+    /// When the hash of a library cannot be calculated.
+    pub fn new(catalogue: &Catalogue, slots: &[Slot]) -> Result<Self, LoadError> {
         let of_slot = |slot: &Slot| {
             let slot = *slot;
             let all = catalogue.strategies();
             all.filter(move |one| one.info().slot == slot).map(entry)
         };
-        Self {
+        let strategies: Result<Vec<StrategyEntry>, LoadError> =
+            slots.iter().flat_map(of_slot).collect();
+        Ok(Self {
             format: 1,
-            strategies: slots.iter().flat_map(of_slot).collect(),
-        }
+            strategies: strategies?,
+        })
     }
 }
 
-fn entry(strategy: &Strategy) -> StrategyEntry {
+fn entry(strategy: &Strategy) -> Result<StrategyEntry, LoadError> {
     let (info, plugin) = (strategy.info(), strategy.plugin());
-    StrategyEntry {
+    Ok(StrategyEntry {
         slot: info.slot.key(),
         name: info.name,
         summary: info.summary,
@@ -67,10 +72,10 @@ fn entry(strategy: &Strategy) -> StrategyEntry {
             name: plugin.name.clone(),
             version: plugin.version.clone(),
             file: plugin.file.as_ref().map(|file| file.display().to_string()),
-            sha256: plugin.sha256.clone(),
+            sha256: plugin.sha256()?.map(str::to_owned),
         },
         params: info.params.iter().map(param).collect(),
-    }
+    })
 }
 
 fn param(info: &ParamInfo) -> ParamEntry {

@@ -1,6 +1,6 @@
 //! All strategies that a run can choose from.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use turnpath_plugin::Offer;
 use crate::error::MOST_COLUMNS;
 use crate::loader::{self, Library};
 use crate::own_strategy::OwnTraits;
-use crate::{Admission, LibraryFile, LoadError, OwnPlugin, Plugin, Strategy};
+use crate::{Admission, LibraryFile, LoadError, OwnPlugin, Plugin, SourceHash, Strategy};
 
 /// The strategies by slot and name, of linked and of loaded plugins.
 #[derive(Debug, Clone, Default)]
@@ -130,8 +130,8 @@ impl Catalogue {
         self.empty_folders.iter().map(PathBuf::as_path)
     }
 
-    /// Adds the plugin of a file. Nothing happens if the catalogue has the same library already,
-    /// under whatever path.
+    /// Adds the plugin of a file. Nothing is added if the catalogue has the same library already, under
+    /// whatever path. The file is read and copied even then.
     ///
     /// # Errors
     /// When the file cannot be read or copied, is not admitted, is not a plugin for this program, or has a
@@ -161,16 +161,7 @@ impl Catalogue {
             return Ok(());
         }
         let admit = |admission: &Arc<dyn Admission>| admission.admit(&libraries);
-        // An admission may wait for another process. An error of a hash is met again below.
-        let (admitted, ()) = rayon::join(
-            || self.admissions.iter().try_for_each(admit),
-            || {
-                libraries
-                    .par_iter()
-                    .for_each(|library| _ = library.sha256())
-            },
-        );
-        admitted?;
+        self.admissions.iter().try_for_each(admit)?;
         let libraries = without_repeats(libraries)?;
         let mut loaded = loader::load(&libraries).into_iter().zip(&libraries);
         let added = loaded.try_for_each(|(library, file)| self.add_library(library?, file));
@@ -181,15 +172,8 @@ impl Catalogue {
 
     /// Whether the same library is there already, under whatever path.
     fn has(&self, library: &LibraryFile) -> Result<bool, LoadError> {
-        let known = self.plugins.iter();
-        let mut known = known
-            .filter_map(|plugin| plugin.sha256.as_deref())
-            .peekable();
-        if known.peek().is_none() {
-            return Ok(false);
-        }
-        let sha256 = library.sha256()?;
-        Ok(known.any(|known| known == sha256))
+        let known = self.plugins.iter().filter(|plugin| plugin.file.is_some());
+        is_among(library, known.filter_map(|plugin| plugin.hash.as_ref()))
     }
 
     fn add_library(&mut self, library: Library, file: &LibraryFile) -> Result<(), LoadError> {
@@ -198,7 +182,7 @@ impl Catalogue {
             version,
             offers,
         } = library;
-        let from = Some((file.path().to_owned(), file.sha256()?.to_owned()));
+        let from = Some((file.path().to_owned(), file.hash().clone()));
         self.add(plugin(&crate_name, &version, from), of_crate(offers))
     }
 
@@ -258,14 +242,26 @@ impl Catalogue {
 
 /// Each library once: a folder may hold one under several names.
 fn without_repeats(libraries: Vec<LibraryFile>) -> Result<Vec<LibraryFile>, LoadError> {
-    let mut seen = BTreeSet::new();
-    let mut different = Vec::with_capacity(libraries.len());
+    let mut different: Vec<LibraryFile> = Vec::with_capacity(libraries.len());
     for library in libraries {
-        if seen.insert(library.sha256()?.to_owned()) {
+        if !is_among(&library, different.iter().map(LibraryFile::hash))? {
             different.push(library);
         }
     }
     Ok(different)
+}
+
+/// Whether a library has the bytes of one of these hashes.
+fn is_among<'a>(
+    library: &LibraryFile,
+    known: impl IntoIterator<Item = &'a SourceHash>,
+) -> Result<bool, LoadError> {
+    for known in known {
+        if library.hash().is_of_same_bytes(known)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// The offers of a crate, which has nothing of the program's own.
@@ -310,13 +306,13 @@ fn check(info: &StrategyInfo, plugin: &Arc<Plugin>) -> Result<(), LoadError> {
     }
 }
 
-fn plugin(crate_name: &str, version: &str, from: Option<(PathBuf, String)>) -> Plugin {
-    let (file, sha256) = from.unzip();
+fn plugin(crate_name: &str, version: &str, from: Option<(PathBuf, SourceHash)>) -> Plugin {
+    let (file, hash) = from.unzip();
     Plugin {
         name: crate_name.replace('_', "-"),
         version: version.to_owned(),
         file,
-        sha256,
+        hash,
         source: None,
         inexact: Vec::new(),
     }

@@ -390,7 +390,7 @@ mod tests {
                 name: String::new(),
                 version: String::new(),
                 file: None,
-                sha256: None,
+                hash: None,
                 source: None,
                 inexact: Vec::new(),
             }),

@@ -25,11 +25,15 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
 /// # Errors
 /// When the file cannot be opened or read.
 pub fn sha256_hex_of_file(path: impl AsRef<Path>) -> io::Result<String> {
-    let mut file = File::open(path)?;
+    sha256_hex_of_reader(File::open(path)?)
+}
+
+/// The SHA-256 of what a reader has left, which is read piece by piece.
+pub(crate) fn sha256_hex_of_reader(mut reader: impl Read) -> io::Result<String> {
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; BUFFER];
     loop {
-        match file.read(&mut buffer) {
+        match reader.read(&mut buffer) {
             Ok(0) => return Ok(hex(&hasher.finalize())),
             Ok(read) => hasher.update(buffer.get(..read).unwrap_or_default()),
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}

@@ -30,6 +30,7 @@ mod own_plugin;
 mod own_strategy;
 mod plugin;
 mod private_copy;
+mod source_hash;
 
 pub use admission::Admission;
 pub use catalogue::Catalogue;
@@ -40,5 +41,6 @@ pub use library::{LibraryFile, Loadable};
 pub use own_plugin::OwnPlugin;
 pub use own_strategy::{Identity, OwnStrategy, OwnSurface, SurfaceNeed};
 pub use plugin::{Plugin, Strategy};
+pub use source_hash::SourceHash;
 pub use turnpath_plugin::calls;
 pub use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion};

@@ -5,15 +5,13 @@ use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
 
 use rayon::prelude::*;
-use turnpath_plugin::loading::Accepted;
+use turnpath_plugin::loading::{Age, SYMBOL_PREFIX};
 
-use crate::hash::{sha256_hex, sha256_hex_of_file};
 use crate::native;
 use crate::private_copy::PrivateCopy;
-use crate::{LoadError, Refusal, image};
+use crate::{LoadError, Refusal, SourceHash, image};
 
 /// Largest library. A plugin with all its debug information has a tenth of that; the limit is on the
 /// memory that a file can take.
@@ -26,8 +24,7 @@ const EXTENSIONS: [&str; 3] = ["so", "dylib", "dll"];
 pub struct LibraryFile {
     path: PathBuf,
     checked: Result<CheckedCopy, Refusal>,
-    /// The hash of the bytes, once it is asked for, or why it cannot be found.
-    sha256: OnceLock<io::Result<String>>,
+    hash: SourceHash,
 }
 
 /// A private copy of bytes that passed the checks.
@@ -49,10 +46,15 @@ pub struct Loadable {
 
 impl Loadable {
     /// Loads the library, as a [`Catalogue`](crate::Catalogue) of another process will. Nothing comes of a
-    /// library that the loader or the boundary refuses.
+    /// library that the loader or the boundary refuses, or whose symbol is not that of an entry.
     pub fn try_load(&self) {
-        if let Ok(entry) = native::load(&self.file, &self.symbol) {
-            let _ = entry.offers(Accepted::Any);
+        if !self.symbol.starts_with(SYMBOL_PREFIX) {
+            return;
+        }
+        if let Ok(entry) = native::load(&self.file, &self.symbol)
+            && let Ok(None) = entry.offers(Age::NotNewer)
+        {
+            let _ = entry.offers(Age::Newer);
         }
     }
 }
@@ -100,11 +102,14 @@ impl LibraryFile {
                     path,
                     checked: Err(refusal),
                     // There is no copy that could be hashed later.
-                    sha256: OnceLock::from(Ok(sha256_hex(buffer))),
+                    hash: SourceHash::of(buffer),
                 });
             }
         };
-        let copy = PrivateCopy::of(buffer).map_err(|source| LoadError::NoCopy {
+        let hashable = |copy: &PrivateCopy| SourceHash::of_copy(path.clone(), copy.open()?);
+        let copy = PrivateCopy::of(buffer);
+        let with_hash = copy.and_then(|copy| Ok((hashable(&copy)?, copy)));
+        let (hash, copy) = with_hash.map_err(|source| LoadError::NoCopy {
             path: path.clone(),
             folder: std::env::temp_dir(),
             source,
@@ -112,7 +117,7 @@ impl LibraryFile {
         Ok(Self {
             path,
             checked: Ok(CheckedCopy { symbol, copy }),
-            sha256: OnceLock::new(),
+            hash,
         })
     }
 
@@ -126,16 +131,12 @@ impl LibraryFile {
     /// # Errors
     /// When the copy of the bytes cannot be read.
     pub fn sha256(&self) -> Result<&str, LoadError> {
-        let file = self.checked.as_ref().map(|checked| checked.copy.file());
-        let of_copy = || match file {
-            Ok(file) => sha256_hex_of_file(file),
-            Err(refusal) => Err(io::Error::other(refusal.to_string())),
-        };
-        let sha256 = self.sha256.get_or_init(of_copy).as_deref();
-        sha256.map_err(|error| LoadError::Unreadable {
-            path: self.path.clone(),
-            source: io::Error::new(error.kind(), format!("its private copy: {error}")),
-        })
+        self.hash.hex()
+    }
+
+    /// The hash, which is calculated when it is asked for.
+    pub(crate) fn hash(&self) -> &SourceHash {
+        &self.hash
     }
 
     /// What the loader will get, so that another process can try it; `None` if the library is refused before.

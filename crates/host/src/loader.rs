@@ -1,6 +1,6 @@
-//! Loads libraries: their code one after the other, what they say of themselves side by side.
+//! Loads libraries: their code one after the other. Then their layouts are compared, side by side as far as they are
+//! not newer than this program.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use turnpath_core::printable_line;
 use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
-use turnpath_plugin::loading::{Accepted, SYMBOL_PREFIX};
+use turnpath_plugin::loading::{Age, SYMBOL_PREFIX};
 
 use crate::library::CheckedCopy;
 use crate::native::{self, Entry};
-use crate::{LibraryFile, LoadError, Refusal};
+use crate::{LibraryFile, LoadError, Refusal, SourceHash};
 
 /// Help for a complete file that the loader cannot map.
 const NOEXEC_HINT: &str = "the folder for temporary files may be mounted without permission to \
@@ -31,6 +31,9 @@ pub struct Library {
 
 /// A library whose code is in this program.
 struct LoadedCode {
+    /// The symbol of its entry.
+    symbol: String,
+    hash: SourceHash,
     entry: Entry,
     /// What the entry offers, once the boundary has accepted it.
     offers: OnceLock<Vec<Offer>>,
@@ -58,7 +61,7 @@ pub fn load(files: &[LibraryFile]) -> Vec<Result<Library, LoadError>> {
     let with_files = loaded.par_iter().zip(files);
     with_files.for_each(|(code, file)| {
         if let Ok(code) = code {
-            let _ = open(code, file, Accepted::Older);
+            let _ = open(code, file, Age::NotNewer);
         }
     });
     let in_order = loaded.into_iter().zip(files);
@@ -69,47 +72,50 @@ pub fn load(files: &[LibraryFile]) -> Vec<Result<Library, LoadError>> {
 
 /// Loads the code of a library.
 fn code_of(file: &LibraryFile) -> Result<Arc<LoadedCode>, LoadError> {
-    /// All that was loaded, by hash and symbol.
-    static LOADED: Mutex<BTreeMap<(String, String), Arc<LoadedCode>>> = Mutex::new(BTreeMap::new());
+    /// All that was loaded.
+    static LOADED: Mutex<Vec<Arc<LoadedCode>>> = Mutex::new(Vec::new());
     let CheckedCopy { symbol, copy } = file.checked()?;
-    let key = (file.sha256()?.to_owned(), symbol.to_owned());
-    // A panic while the lock is held leaves a valid map: each library in it is loaded.
+    // A panic while the lock is held leaves a valid list: each library in it is loaded.
     let mut loaded = LOADED.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(code) = loaded.get(&key) {
-        return Ok(Arc::clone(code));
+    for code in loaded.iter().filter(|code| code.symbol == *symbol) {
+        if code.hash.is_of_same_bytes(file.hash())? {
+            return Ok(Arc::clone(code));
+        }
     }
     let mark = callee(file).enter();
     let entry = native::load(copy.file(), symbol)
         .map_err(|reason| file.refused(refusal(&reason, copy.file(), file.path())))?;
     drop(mark);
     let code = Arc::new(LoadedCode {
+        symbol: symbol.to_owned(),
+        hash: file.hash().clone(),
         entry,
         offers: OnceLock::new(),
     });
-    loaded.insert(key, Arc::clone(&code));
+    loaded.push(Arc::clone(&code));
     Ok(code)
 }
 
-/// What the library offers, if the boundary accepts it.
+/// What the library offers, if the boundary accepts it. `None` where it is opened as one that is not newer than
+/// this program, and is newer or does not fit.
 fn open<'a>(
     code: &'a LoadedCode,
     file: &LibraryFile,
-    accepted: Accepted,
-) -> Result<&'a [Offer], LoadError> {
+    age: Age,
+) -> Result<Option<&'a [Offer]>, LoadError> {
     if let Some(offers) = code.offers.get() {
-        return Ok(offers);
+        return Ok(Some(offers));
     }
     let _mark = callee(file).enter();
-    let offers = code.entry.offers(accepted);
+    let offers = code.entry.offers(age);
     let offers = offers.map_err(|error| file.refused(error.into()))?;
-    Ok(code.offers.get_or_init(|| offers))
+    Ok(offers.map(|offers| &**code.offers.get_or_init(|| offers)))
 }
 
 fn library(code: &LoadedCode, file: &LibraryFile) -> Result<Library, LoadError> {
-    let CheckedCopy { symbol, .. } = file.checked()?;
-    let offers = open(code, file, Accepted::Any)?;
+    let offers = open(code, file, Age::Newer)?.unwrap_or_default();
     Ok(Library {
-        crate_name: symbol.replacen(SYMBOL_PREFIX, "", 1),
+        crate_name: code.symbol.replacen(SYMBOL_PREFIX, "", 1),
         version: offers.first().map_or("", Offer::crate_version).to_owned(),
         offers: offers.to_vec(),
     })

@@ -5,46 +5,45 @@ use std::error::Error;
 use std::path::Path;
 
 use turnpath_plugin::Offer;
-use turnpath_plugin::loading::{self, Accepted, OpenError, SYMBOL_PREFIX};
+use turnpath_plugin::loading::{self, Age, OpenError};
 
 /// The address of a plugin's entry, in a library that stays loaded for the rest of the program.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry(*const u8);
 
-// SAFETY: the entry is a Rust static, and such a static is `Sync`: what is written to it when it is opened goes
-// through atomics and locks. It is there as long as the program.
+// SAFETY: it is an address, which stays valid. Only `offers` reads through it, and what the boundary writes there
+// goes through an atomic pointer or a lock.
 unsafe impl Send for Entry {}
 // SAFETY: as above.
 unsafe impl Sync for Entry {}
 
 impl Entry {
-    /// The strategies of the plugin, after a comparison of layouts.
+    /// The strategies of the plugin, after a comparison of layouts. `None` where the library is opened as one
+    /// that is not newer than this program, and is newer or does not fit.
     ///
     /// # Errors
-    /// When the boundary refuses the library, or it is not one of those that are accepted.
-    pub fn offers(self, accepted: Accepted) -> Result<Vec<Offer>, OpenError> {
+    /// When the boundary refuses the library.
+    pub fn offers(self, age: Age) -> Result<Option<Vec<Offer>>, OpenError> {
         // SAFETY: `load` took the address from a symbol with the boundary's prefix, in a library that stays
         // loaded.
-        unsafe { loading::open(self.0, accepted) }
+        unsafe { loading::open(self.0, age) }
     }
 }
 
-/// Loads a library for the rest of the program, and finds the entry that it exports as `symbol`.
+/// Loads a library for the rest of the program, and finds the entry that it exports as `symbol`, which begins with
+/// [`SYMBOL_PREFIX`](turnpath_plugin::loading::SYMBOL_PREFIX).
 ///
 /// All symbols are resolved at once, so that a missing one is found here. The symbols stay private
 /// to the library. The library is never unloaded, not even when its entry is refused: objects and
 /// texts from it may be in use anywhere, and threads that it started may run.
 ///
 /// # Errors
-/// The message of the system's loader, when it refuses the library; or that the symbol is not one of an entry.
+/// The message of the system's loader, when it refuses the library.
 pub fn load(file: &Path, symbol: &str) -> Result<Entry, String> {
-    if !symbol.starts_with(SYMBOL_PREFIX) {
-        return Err(format!("`{symbol}` is not the symbol of a plugin's entry"));
-    }
-    // SAFETY: the library's initialisers run. A user who trusts a plugin vouches that they behave.
-    // The caller has checked that the file is complete and for this machine.
+    // SAFETY: the library's initialisers run. A user who trusts a plugin vouches that they behave. That the file
+    // is complete and for this machine was checked before the private copy was made.
     let library = unsafe { open_library(file) }.map_err(reason)?;
-    // SAFETY: the symbol is a static, so its address may be taken as a pointer of any type.
+    // SAFETY: symbols with the boundary's prefix are statics, so the address may be taken as a pointer of any type.
     let entry = unsafe { library.get::<*const u8>(symbol) }.map(|symbol| *symbol);
     std::mem::forget(library);
     entry.map(Entry).map_err(reason)

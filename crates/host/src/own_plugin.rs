@@ -2,8 +2,8 @@
 
 use turnpath_plugin::Offer;
 
-use crate::Plugin;
 use crate::own_strategy::{OwnStrategy, OwnTraits};
+use crate::{Plugin, SourceHash};
 
 /// Strategies of the program's own under the name of one plugin.
 ///
@@ -22,7 +22,7 @@ impl OwnPlugin {
             name: name.into(),
             version: version.into(),
             file: None,
-            sha256: None,
+            hash: None,
             source: Some("of this program".to_owned()),
             inexact: Vec::new(),
         };
@@ -38,7 +38,7 @@ impl OwnPlugin {
     #[must_use]
     pub fn with_source(mut self, place: impl Into<String>, sha256: impl Into<String>) -> Self {
         self.plugin.source = Some(place.into());
-        self.plugin.sha256 = Some(sha256.into());
+        self.plugin.hash = Some(SourceHash::known(sha256));
         self
     }
 

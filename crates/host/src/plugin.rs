@@ -9,6 +9,7 @@ use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
 
 use crate::own_strategy::{Identity, OwnTraits, SurfaceNeed};
+use crate::{LoadError, SourceHash};
 
 /// A crate that registers strategies, or a part of the program that makes its own. A crate is linked
 /// into the program or loaded from a file.
@@ -20,14 +21,25 @@ pub struct Plugin {
     pub version: String,
     /// The absolute path of the library that was loaded; `None` for what is no library.
     pub file: Option<PathBuf>,
-    /// SHA-256 of the bytes that were loaded, in lower-case hexadecimal, or of the source that the
-    /// program names; `None` for a linked crate.
-    pub sha256: Option<String>,
+    /// The hash of the bytes that were loaded, or of the source that the program names; `None` for a
+    /// linked crate.
+    pub hash: Option<SourceHash>,
     /// Where the source of the program's own strategies is, for messages; `None` for a crate.
     pub source: Option<String>,
     /// The program's own strategies, `sampler even`, whose answers may have other bytes on another
     /// machine.
     pub inexact: Vec<String>,
+}
+
+impl Plugin {
+    /// The SHA-256 of the bytes that were loaded, or of the source that the program names, in lower-case
+    /// hexadecimal; `None` for a linked crate.
+    ///
+    /// # Errors
+    /// When the copy of the library cannot be read.
+    pub fn sha256(&self) -> std::result::Result<Option<&str>, LoadError> {
+        self.hash.as_ref().map(SourceHash::hex).transpose()
+    }
 }
 
 impl fmt::Display for Plugin {

@@ -1,6 +1,6 @@
 //! Where the loader finds the bytes that were checked.
 
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -45,6 +45,11 @@ impl PrivateCopy {
         std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
         options.open(&copy.file)?.write_all(bytes)?;
         Ok(copy)
+    }
+
+    /// The copy, to be read. It can be read even after its name is gone.
+    pub(crate) fn open(&self) -> io::Result<File> {
+        File::open(&self.file)
     }
 
     /// Where the bytes are.

@@ -82,7 +82,7 @@ pub mod prelude {
 #[doc(hidden)]
 pub mod loading {
     pub use crate::abi::catalogue::UnknownKind;
-    pub use crate::abi::entry::{Accepted, inspect};
+    pub use crate::abi::entry::{Age, inspect};
     pub use crate::head::{BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX};
     pub use crate::offer::open;
 }

@@ -8,7 +8,7 @@ use turnpath_core::{
 };
 
 use crate::abi::catalogue::CatalogueEntry;
-use crate::abi::entry::{self, Accepted};
+use crate::abi::entry::{self, Age};
 use crate::abi::request::AbiRequest;
 use crate::abi::root::{self, Constructed, RootRef};
 use crate::calls::Callee;
@@ -156,7 +156,8 @@ pub fn linked() -> Vec<Offer> {
     offers(root, entries)
 }
 
-/// The strategies of the library that exports `entry`.
+/// The strategies of the library that exports `entry`. `None` where it is opened as one that is not newer
+/// than this program, and is newer or does not fit.
 ///
 /// # Errors
 /// If the entry does not belong to this version of the boundary.
@@ -167,12 +168,12 @@ pub fn linked() -> Vec<Offer> {
 #[allow(unsafe_code)] // the boundary: the caller guarantees the properties of the library
 pub unsafe fn open(
     entry: *const u8,
-    accepted: Accepted,
-) -> std::result::Result<Vec<Offer>, OpenError> {
+    age: Age,
+) -> std::result::Result<Option<Vec<Offer>>, OpenError> {
     let opened = || {
         // SAFETY: the caller makes the same promise.
-        let opened = unsafe { entry::open(entry, accepted) };
-        Ok(opened.map(|(root, entries)| offers(root, entries)))
+        let opened = unsafe { entry::open(entry, age) };
+        Ok(opened.map(|opened| opened.map(|(root, entries)| offers(root, entries))))
     };
     // The comparison of layouts panics where a description refers to what is not in it.
     guarded(opened).unwrap_or(Err(OpenError::Damaged))

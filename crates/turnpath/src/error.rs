@@ -396,7 +396,7 @@ mod tests {
             name: "one".to_owned(),
             version: "1.0.0".to_owned(),
             file: None,
-            sha256: None,
+            hash: None,
             source: None,
             inexact: Vec::new(),
         });

@@ -5,9 +5,12 @@ use std::fs::{self, File};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use turnpath_files::{Draft, FileError};
 use turnpath_host::{Admission, Catalogue, LibraryFile, LoadError, Refusal};
+
+use crate::Error;
 
 /// The form of the file.
 const FORMAT: u32 = 1;
@@ -100,32 +103,38 @@ impl PluginsLock {
 
     /// The text of a lock for the loaded plugins of a catalogue, each library once, in the order of
     /// their names. What is linked into the program needs no lock.
-    pub fn text_of(catalogue: &Catalogue) -> String {
-        let loaded = catalogue.plugins().iter().filter_map(|plugin| {
-            Some(Entry {
-                name: plugin.name.clone(),
-                version: plugin.version.clone(),
-                file: name_of(plugin.file.as_deref()?),
-                sha256: plugin.sha256.clone()?,
-            })
-        });
-        let plugins: BTreeSet<Entry> = loaded.collect();
+    ///
+    /// # Errors
+    /// When the hash of a library cannot be calculated.
+    pub fn text_of(catalogue: &Catalogue) -> Result<String, LoadError> {
+        let mut plugins = BTreeSet::new();
+        for plugin in catalogue.plugins() {
+            if let (Some(file), Some(sha256)) = (&plugin.file, plugin.sha256()?) {
+                plugins.insert(Entry {
+                    name: plugin.name.clone(),
+                    version: plugin.version.clone(),
+                    file: name_of(file),
+                    sha256: sha256.to_owned(),
+                });
+            }
+        }
         let contents = Contents {
             format: FORMAT,
             plugins: plugins.into_iter().collect(),
         };
         // Numbers and texts are all that a lock has, and TOML can say them.
         let text = toml::to_string(&contents).unwrap_or_default();
-        format!("{HEAD}{text}")
+        Ok(format!("{HEAD}{text}"))
     }
 
     /// Writes the lock of a catalogue into a file. An old one stays until the new one is whole.
     ///
     /// # Errors
-    /// When the file cannot be written.
-    pub fn write(catalogue: &Catalogue, file: &Path) -> Result<(), FileError> {
+    /// When the file cannot be written, or the hash of a library cannot be calculated.
+    pub fn write(catalogue: &Catalogue, file: &Path) -> Result<(), Error> {
+        let text = Self::text_of(catalogue)?;
         let mut draft = Draft::begin(file)?;
-        let written = draft.write_all(Self::text_of(catalogue).as_bytes());
+        let written = draft.write_all(text.as_bytes());
         written.map_err(|error| FileError {
             path: file.to_owned(),
             error,
@@ -157,6 +166,10 @@ impl PluginsLock {
 
 impl Admission for PluginsLock {
     fn admit(&self, libraries: &[LibraryFile]) -> Result<(), LoadError> {
+        // The hashes take the time. An error of one is met again below.
+        libraries
+            .par_iter()
+            .for_each(|library| _ = library.sha256());
         libraries
             .iter()
             .try_for_each(|library| self.admit_one(library))

@@ -300,7 +300,7 @@ impl Job {
             programs: programs.into_iter().map(beside_path).collect(),
             rough_paths: Vec::new(),
             controller_commands: controller_commands(&self.recipe),
-            plugins: self.plugin_sources(),
+            plugins: self.plugin_sources()?,
             data_files: self.data_sources(),
             recipe: None,
             files: None,
@@ -335,16 +335,18 @@ impl Job {
         Ok(Some(figures::unreached(&figures)))
     }
 
-    fn plugin_sources(&self) -> Vec<report::PluginSource> {
+    fn plugin_sources(&self) -> Result<Vec<report::PluginSource>, Error> {
         let sources = used(&self.recipe, &self.catalogue).into_iter();
-        let source = sources.map(|plugin| report::PluginSource {
-            name: plugin.name.clone(),
-            version: plugin.version.clone(),
-            file: match &plugin.file {
-                Some(file) => Some(file.display().to_string()),
-                None => plugin.source.clone(),
-            },
-            sha256: plugin.sha256.clone(),
+        let source = sources.map(|plugin| {
+            Ok(report::PluginSource {
+                name: plugin.name.clone(),
+                version: plugin.version.clone(),
+                file: match &plugin.file {
+                    Some(file) => Some(file.display().to_string()),
+                    None => plugin.source.clone(),
+                },
+                sha256: plugin.sha256()?.map(str::to_owned),
+            })
         });
         source.collect()
     }

@@ -33,7 +33,8 @@ fn the_origin_is_the_package_the_file_and_the_hash_of_its_bytes() {
     };
     assert_eq!((&*plugin.name, &*plugin.version), ("constant-arc", "0.1.0"));
     assert_eq!(plugin.file, Some(fs::canonicalize(&file).unwrap()));
-    assert_eq!(plugin.sha256, Some(sha256_hex_of_file(&file).unwrap()));
+    let hash = sha256_hex_of_file(&file).unwrap();
+    assert_eq!(plugin.sha256().unwrap(), Some(hash.as_str()));
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn a_strategy_of_the_program_is_found_made_and_asked() {
         ("a plane", PARAMS)
     );
     assert_eq!(found.plugin().to_string(), "lab 0.3.1 (lab.py)");
-    assert_eq!(found.plugin().sha256.as_ref().map(String::len), Some(64));
+    assert_eq!(found.plugin().sha256().unwrap().map(str::len), Some(64));
     let params = Params::new().with("height", 2.0);
     let surface = found.offer().surface(&params).unwrap();
     let mut z = [0.0; 2];

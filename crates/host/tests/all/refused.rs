@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::common::{fixtures, with_file, with_sources};
-use turnpath_host::{Catalogue, LoadError, Refusal};
+use turnpath_host::{Catalogue, LibraryFile, LoadError, Refusal, sha256_hex};
 
 /// A file with these bytes, in a folder of its own.
 fn file_of(bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
@@ -371,5 +371,29 @@ mod elf {
             broken[part * bytes.len() / 40..].fill(0);
             refusal_of(&broken);
         }
+    }
+}
+
+/// The code of `unusable-name` can be loaded; the program refuses its name. `zzz` is no library at all.
+#[test]
+fn of_two_libraries_that_are_refused_the_first_is_named() {
+    let folder = fixtures::plugin_folder(&["unusable-name"]);
+    fs::write(folder.path().join("zzz.so"), "no library").unwrap();
+    let error = Catalogue::new().with_folder(folder.path()).unwrap_err();
+    assert!(matches!(error, LoadError::UnusableName { .. }), "{error}");
+}
+
+/// They are read through memory that they share.
+#[test]
+fn each_library_of_a_folder_has_the_hash_of_its_own_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = |i: u8| vec![i; 40_000 / (1 + usize::from(i))];
+    for i in 0..20 {
+        fs::write(folder.path().join(format!("lib{i:02}.so")), bytes(i)).unwrap();
+    }
+    let libraries = LibraryFile::read_folder(folder.path()).unwrap();
+    assert_eq!(libraries.len(), 20);
+    for (i, library) in (0..).zip(&libraries) {
+        assert_eq!(library.sha256().unwrap(), sha256_hex(&bytes(i)), "{i}");
     }
 }

@@ -58,16 +58,17 @@ pub fn own() -> (RootRef, Vec<CatalogueEntry>) {
     )
 }
 
-/// Which libraries are opened.
+/// How old a library is, beside this program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Accepted {
-    /// Those that have nothing that this program lacks. Such libraries may be opened side by side.
-    Older,
-    /// Newer ones too. They are compared with each other, so they are opened one after the other.
-    Any,
+pub enum Age {
+    /// It has nothing that this program lacks. Such libraries may be opened side by side.
+    NotNewer,
+    /// It has more. Such libraries are compared with each other, so they are opened one after the other.
+    Newer,
 }
 
-/// Opens the entry that a library exports, and lists the strategies of its own crate.
+/// Opens the entry that a library exports, and lists the strategies of its own crate. `None` where the
+/// library is opened as one that is not newer, and is newer or does not fit.
 ///
 /// # Safety
 /// `entry` is the address of a symbol whose name begins with
@@ -75,26 +76,28 @@ pub enum Accepted {
 /// program.
 pub unsafe fn open(
     entry: *const u8,
-    accepted: Accepted,
-) -> Result<(RootRef, Vec<CatalogueEntry>), OpenError> {
+    age: Age,
+) -> Result<Option<(RootRef, Vec<CatalogueEntry>)>, OpenError> {
     // SAFETY: the caller makes the same promise.
-    let (crate_name, root) = unsafe { open_root::<RootRef>(entry, accepted) }?;
+    let Some((crate_name, root)) = (unsafe { open_root::<RootRef>(entry, age) })? else {
+        return Ok(None);
+    };
     let entries = entries(&root.catalogue()(), |name| name == crate_name);
     let entries = entries.map_err(|error| match error {
         CatalogueError::Damaged => OpenError::NotAPlugin,
         CatalogueError::UnknownKind(unknown) => OpenError::UnknownKind(unknown),
     })?;
-    Ok((root, entries))
+    Ok(Some((root, entries)))
 }
 
-/// Checks and opens an entry: the name of its crate, and its root.
+/// Checks and opens an entry: the name of its crate, and its root. `None` as for [`open`].
 ///
 /// # Safety
 /// That of [`open`].
 pub unsafe fn open_root<R: StableAbi + PrefixRefTrait>(
     entry: *const u8,
-    accepted: Accepted,
-) -> Result<(&'static str, R), OpenError> {
+    age: Age,
+) -> Result<Option<(&'static str, R)>, OpenError> {
     // SAFETY: every version of a plugin entry begins with a head, and the symbol's name marks an
     // entry.
     let head = unsafe { entry.cast::<EntryHead>().read_unaligned() };
@@ -107,13 +110,13 @@ pub unsafe fn open_root<R: StableAbi + PrefixRefTrait>(
         .upgrade()
         .map_err(|error| OpenError::Layout(error.to_string()))?;
     let layout = library.layout().ok_or(OpenError::NotAPlugin)?;
-    let checked = match accepted {
-        Accepted::Older => layout::check_as_older::<R>(layout),
-        Accepted::Any => layout::check::<R>(layout),
-    };
-    checked.map_err(OpenError::Layout)?;
+    match age {
+        Age::NotNewer if !layout::is_not_newer::<R>(layout) => return Ok(None),
+        Age::NotNewer => {}
+        Age::Newer => layout::check_newer::<R>(layout).map_err(OpenError::Layout)?,
+    }
     // SAFETY: the layouts were just compared.
     let root = unsafe { library.unchecked_layout::<R>() };
     let root = root.map_err(|error| OpenError::Layout(error.to_string()))?;
-    Ok((entry.crate_name.as_str(), root))
+    Ok(Some((entry.crate_name.as_str(), root)))
 }

@@ -6,39 +6,50 @@
 //! one finds out at run time which of its own are missing. abi_stable's own loading takes the
 //! program for the interface and so refuses every older library.
 
+use std::sync::{Mutex, PoisonError};
+
 use abi_stable::StableAbi;
 use abi_stable::abi_stability::abi_checking::{
-    CheckingGlobals, check_layout_compatibility, check_layout_compatibility_with_globals,
+    AbiInstabilityErrors, CheckingGlobals, check_layout_compatibility,
+    check_layout_compatibility_with_globals,
 };
 use abi_stable::type_layout::TypeLayout;
 
-/// Checks that a library has nothing of `T` that this program lacks.
+/// Whether a library has nothing of `T` that this program lacks, and fits it.
 ///
 /// Such libraries fit each other too: what they have lies where this program has it. So the comparison
 /// needs to know of no other library, and libraries may be compared side by side.
-///
-/// # Errors
-/// If the library is newer, or does not fit. The text is hundreds of lines long.
-pub fn check_as_older<T: StableAbi>(library: &'static TypeLayout) -> Result<(), String> {
-    let others = CheckingGlobals::new();
-    let checked = check_layout_compatibility_with_globals(library, T::LAYOUT, &others);
-    checked.map_err(|errors| errors.to_string())
+pub fn is_not_newer<T: StableAbi>(library: &'static TypeLayout) -> bool {
+    compare_as_older::<T>(library).is_ok()
 }
 
-/// Checks that the layout of `T` here fits the one that a library was built with. A newer library is
-/// compared with the newer ones before it too.
+/// Checks that a newer library fits the layout of `T` here, and the newer libraries that were compared
+/// before it.
 ///
 /// # Errors
-/// If neither is the other with more functions. The text is that of the shorter
-/// comparison, hundreds of lines long.
-pub fn check<T: StableAbi>(library: &'static TypeLayout) -> Result<(), String> {
-    let Err(as_older) = check_as_older::<T>(library) else {
+/// If this program is not the library with fewer functions. The text is that of the shorter of both
+/// comparisons, hundreds of lines long.
+pub fn check_newer<T: StableAbi>(library: &'static TypeLayout) -> Result<(), String> {
+    /// A comparison leaves what it met to the next ones, so there is one at a time.
+    static COMPARISON: Mutex<()> = Mutex::new(());
+    let _comparison = COMPARISON.lock().unwrap_or_else(PoisonError::into_inner);
+    let Err(as_newer) = check_layout_compatibility(T::LAYOUT, library) else {
         return Ok(());
     };
-    let newer = check_layout_compatibility(T::LAYOUT, library);
-    let Err(as_newer) = newer else {
-        return Ok(());
-    };
-    let shorter = [as_older, as_newer.to_string()].into_iter();
-    Err(shorter.min_by_key(String::len).unwrap_or_default())
+    let mut texts = vec![as_newer.to_string()];
+    texts.extend(
+        compare_as_older::<T>(library)
+            .err()
+            .map(|error| error.to_string()),
+    );
+    Err(texts
+        .into_iter()
+        .min_by_key(String::len)
+        .unwrap_or_default())
+}
+
+fn compare_as_older<T: StableAbi>(
+    library: &'static TypeLayout,
+) -> Result<(), AbiInstabilityErrors> {
+    check_layout_compatibility_with_globals(library, T::LAYOUT, &CheckingGlobals::new())
 }

@@ -7,7 +7,7 @@ use abi_stable::abi_stability::abi_checking::check_layout_compatibility;
 use abi_stable::library::RawLibrary;
 use turnpath_core::{Continuation, Params, Revolutions};
 
-use super::entry::{Accepted, open_root};
+use super::entry::{Age, open_root};
 use super::layout;
 use super::reply::{Returned, result};
 use super::request::AbiRequest;
@@ -93,7 +93,10 @@ fn root_of_a_library() -> newer::RootRef {
     let entry = entry.unwrap();
     std::mem::forget(library);
     // SAFETY: the symbol has the prefix, and the library stays loaded.
-    unsafe { open_root(entry, Accepted::Older) }.unwrap().1
+    unsafe { open_root(entry, Age::NotNewer) }
+        .unwrap()
+        .unwrap()
+        .1
 }
 
 #[test]
@@ -112,9 +115,50 @@ fn an_older_library_loads_and_what_it_lacks_has_its_default() {
     assert_eq!(sampler.continues(block), Ok(Continuation::End));
 }
 
+/// Another one in place of `newer`: the field that was added has another type.
+#[allow(dead_code, reason = "only its layout counts")]
+mod otherwise_newer {
+    use super::super::compensator::OwnedCompensator;
+    use super::super::feed::OwnedFeed;
+    use super::super::reply::Answer;
+    use super::super::request::AbiRequest;
+    use super::super::sampler::OwnedSampler;
+    use super::super::spindle::OwnedSpindle;
+    use super::super::surface::OwnedSurface;
+    use super::super::velocity::OwnedVelocity;
+    use abi_stable::StableAbi;
+    use abi_stable::std_types::RString;
+
+    #[repr(C)]
+    #[derive(StableAbi)]
+    #[sabi(kind(Prefix(prefix_ref = RootRef)))]
+    pub struct Root {
+        pub catalogue: extern "C" fn() -> RString,
+        pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
+        pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
+        pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
+        pub compensator: extern "C" fn(AbiRequest) -> Answer<OwnedCompensator>,
+        #[sabi(last_prefix_field)]
+        pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
+        pub spindle: extern "C" fn(AbiRequest) -> Answer<OwnedSpindle>,
+        pub seventh: extern "C" fn() -> RString,
+    }
+}
+
 #[test]
-fn a_newer_library_loads_under_this_host() {
-    assert_eq!(layout::check::<RootRef>(newer::RootRef::LAYOUT), Ok(()));
+fn newer_libraries_load_under_this_host_if_they_fit_each_other() {
+    let (newer, otherwise) = (newer::RootRef::LAYOUT, otherwise_newer::RootRef::LAYOUT);
+    for library in [newer, otherwise] {
+        assert!(!layout::is_not_newer::<RootRef>(library));
+    }
+    assert_eq!(layout::check_newer::<RootRef>(newer), Ok(()));
+    assert!(layout::check_newer::<RootRef>(otherwise).is_err());
+    assert_eq!(layout::check_newer::<RootRef>(newer), Ok(()));
+}
+
+#[test]
+fn a_library_of_the_same_age_is_not_newer() {
+    assert!(layout::is_not_newer::<RootRef>(RootRef::LAYOUT));
 }
 
 #[test]
@@ -126,6 +170,6 @@ fn abi_stable_alone_would_refuse_an_older_library() {
 
 #[test]
 fn a_library_whose_functions_have_changed_is_refused() {
-    let text = layout::check::<RootRef>(other::RootRef::LAYOUT).unwrap_err();
+    let text = layout::check_newer::<RootRef>(other::RootRef::LAYOUT).unwrap_err();
     assert!(text.contains("RString"), "{text}");
 }

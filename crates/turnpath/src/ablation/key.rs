@@ -53,17 +53,17 @@ impl<'a> Keys<'a> {
     /// A key for each variant.
     ///
     /// # Errors
-    /// When a data file of a variant cannot be read.
+    /// When a data file of a variant cannot be read, or the hash of a library cannot be calculated.
     pub fn of_all(&self, variants: &[Variant]) -> Result<Vec<Key>, Error> {
         let key = |variant: &Variant| {
             let recipe = &variant.recipe;
             let files = used_files(recipe, self.catalogue, self.files)?;
-            Ok(self.of(recipe, &files))
+            self.of(recipe, &files)
         };
         variants.iter().map(key).collect()
     }
 
-    fn of(&self, recipe: &Recipe, files: &[UsedFile]) -> Key {
+    fn of(&self, recipe: &Recipe, files: &[UsedFile]) -> Result<Key, Error> {
         let values = values(recipe.document());
         let hash = |file: &UsedFile| {
             let key = format!("{}.{}", file.table, file.param);
@@ -74,7 +74,7 @@ impl<'a> Keys<'a> {
             "record": RECORD_FORMAT,
             "turnpath": env!("CARGO_PKG_VERSION"),
             "figures": FIGURES,
-            "plugins": self.plugins(recipe),
+            "plugins": self.plugins(recipe)?,
             "files": files,
             "values": values,
         });
@@ -86,11 +86,11 @@ impl<'a> Keys<'a> {
         if !own.is_empty() {
             of["own"] = json!(own);
         }
-        Key {
+        Ok(Key {
             hash: sha256_hex(of.to_string().as_bytes()),
             of,
             unknown: self.unknown(recipe),
-        }
+        })
     }
 
     /// The strategies of a recipe that cannot be told from others of their names.
@@ -114,10 +114,13 @@ impl<'a> Keys<'a> {
         })
     }
 
-    fn plugins(&self, recipe: &Recipe) -> Vec<Json> {
+    fn plugins(&self, recipe: &Recipe) -> Result<Vec<Json>, Error> {
         let mut used = plugins::used(recipe, self.catalogue);
         used.sort_by(|one, other| one.name.cmp(&other.name));
-        let one = |plugin: &turnpath_host::Plugin| json!({ "name": plugin.name, "version": plugin.version, "sha256": plugin.sha256 });
+        let one = |plugin: &turnpath_host::Plugin| {
+            let sha256 = plugin.sha256()?;
+            Ok(json!({ "name": plugin.name, "version": plugin.version, "sha256": sha256 }))
+        };
         used.into_iter().map(one).collect()
     }
 }
@@ -189,7 +192,8 @@ use = "analytic"
 
     fn key(text: &str, files: &[UsedFile]) -> Key {
         let recipe = Recipe::parse(text, "recipe.toml", &[]).unwrap();
-        Keys::new(&Catalogue::new(), &DataFiles::default()).of(&recipe, files)
+        let (catalogue, data) = (Catalogue::new(), DataFiles::default());
+        Keys::new(&catalogue, &data).of(&recipe, files).unwrap()
     }
 
     #[test]

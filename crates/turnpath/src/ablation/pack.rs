@@ -131,7 +131,7 @@ impl Contents {
             }
         }
         if has_others {
-            let lock = PluginsLock::text_of(catalogue);
+            let lock = PluginsLock::text_of(catalogue)?;
             self.add(PathBuf::from(LOCK), lock.into_bytes().into())?;
         }
         Ok(has_others)
@@ -186,7 +186,7 @@ fn library(plugin: &Plugin, file: &Path) -> Result<Arc<[u8]>, Error> {
         path: file.to_owned(),
         error,
     })?;
-    match plugin.sha256.as_ref() == Some(&sha256_hex(&bytes)) {
+    match plugin.sha256()? == Some(&sha256_hex(&bytes)) {
         true => Ok(bytes.into()),
         false => Err(PackError::PluginChanged {
             path: file.to_owned(),
