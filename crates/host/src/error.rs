@@ -8,7 +8,7 @@ use std::sync::Arc;
 use turnpath_core::Slot;
 use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion, OpenError, UnknownKind};
 
-use crate::Plugin;
+use crate::{HashError, Plugin};
 
 /// Most columns of a parameter. Nobody writes rows of a thousand numbers, and messages show an
 /// example of a row.
@@ -254,6 +254,12 @@ fn names(paths: &[PathBuf]) -> String {
         .map(|path| path.display().to_string())
         .collect();
     names.join(", ")
+}
+
+impl From<HashError> for LoadError {
+    fn from(HashError { path, source }: HashError) -> Self {
+        Self::Unreadable { path, source }
+    }
 }
 
 impl From<OpenError> for Refusal {

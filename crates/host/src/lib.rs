@@ -41,6 +41,6 @@ pub use library::{LibraryFile, Loadable};
 pub use own_plugin::OwnPlugin;
 pub use own_strategy::{Identity, OwnStrategy, OwnSurface, SurfaceNeed};
 pub use plugin::{Plugin, Strategy};
-pub use source_hash::SourceHash;
+pub use source_hash::{HashError, SourceHash};
 pub use turnpath_plugin::calls;
 pub use turnpath_plugin::loading::{BOUNDARY_VERSION, BoundaryVersion};

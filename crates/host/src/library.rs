@@ -131,7 +131,7 @@ impl LibraryFile {
     /// # Errors
     /// When the copy of the bytes cannot be read.
     pub fn sha256(&self) -> Result<&str, LoadError> {
-        self.hash.hex()
+        Ok(self.hash.hex()?)
     }
 
     /// The hash, which is calculated when it is asked for.

@@ -9,7 +9,7 @@ use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
 
 use crate::own_strategy::{Identity, OwnTraits, SurfaceNeed};
-use crate::{LoadError, SourceHash};
+use crate::source_hash::{HashError, SourceHash};
 
 /// A crate that registers strategies, or a part of the program that makes its own. A crate is linked
 /// into the program or loaded from a file.
@@ -37,7 +37,7 @@ impl Plugin {
     ///
     /// # Errors
     /// When the copy of the library cannot be read.
-    pub fn sha256(&self) -> std::result::Result<Option<&str>, LoadError> {
+    pub fn sha256(&self) -> std::result::Result<Option<&str>, HashError> {
         self.hash.as_ref().map(SourceHash::hex).transpose()
     }
 }

@@ -6,7 +6,6 @@ use std::io::{self, Seek, SeekFrom};
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-use crate::LoadError;
 use crate::hash::{sha256_hex, sha256_hex_of_reader};
 
 /// The SHA-256 of the bytes that a plugin comes from, in lower-case hexadecimal. That of a library is
@@ -30,6 +29,16 @@ enum Source {
         copy: File,
         hex: OnceLock<io::Result<String>>,
     },
+}
+
+/// The copy of a library cannot be read, so that its hash cannot be calculated.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot read {}", path.display())]
+pub struct HashError {
+    /// The library's own file.
+    pub path: PathBuf,
+    /// The system's reason.
+    pub source: io::Error,
 }
 
 impl SourceHash {
@@ -65,14 +74,14 @@ impl SourceHash {
     ///
     /// # Errors
     /// When the copy of the library cannot be read.
-    pub fn hex(&self) -> Result<&str, LoadError> {
+    pub fn hex(&self) -> Result<&str, HashError> {
         match &*self.0 {
             Source::Known { hex, .. } => Ok(hex),
             Source::Copy {
                 path, copy, hex, ..
             } => {
                 let hex = hex.get_or_init(|| of_whole_file(copy)).as_deref();
-                hex.map_err(|error| LoadError::Unreadable {
+                hex.map_err(|error| HashError {
                     path: path.clone(),
                     source: io::Error::new(error.kind(), format!("its private copy: {error}")),
                 })
@@ -84,7 +93,7 @@ impl SourceHash {
     ///
     /// # Errors
     /// Those of [`hex`](Self::hex).
-    pub(crate) fn is_of_same_bytes(&self, other: &Self) -> Result<bool, LoadError> {
+    pub(crate) fn is_of_same_bytes(&self, other: &Self) -> Result<bool, HashError> {
         if Arc::ptr_eq(&self.0, &other.0) {
             return Ok(true);
         }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use turnpath_core::StrategyError;
 use turnpath_files::{FileError, FolderError};
-use turnpath_host::LoadError;
+use turnpath_host::{HashError, LoadError};
 use turnpath_pipeline::PipelineError;
 use turnpath_post::{DryRunError, ReadError};
 use turnpath_recipe::{Diagnostic, Diagnostics, RecipeError};
@@ -327,6 +327,12 @@ impl From<FolderError> for Error {
             FolderError::File(error) => Self::File(error),
             error => Self::Folder(error),
         }
+    }
+}
+
+impl From<HashError> for Error {
+    fn from(error: HashError) -> Self {
+        Self::Load(error.into())
     }
 }
 
