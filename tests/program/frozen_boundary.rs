@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use crate::support::bench::Bench;
-use crate::support::builds::{cargo, run, target_folder};
+use crate::support::builds::{self, cargo, run};
 use crate::support::fixtures::file_name;
 use crate::support::repository;
 use turnpath_host::sha256_hex;
@@ -31,9 +31,10 @@ fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {
         // The fixtures' folder: the dependencies of both are the same.
-        let target = target_folder("fixtures");
+        let target = builds::target_folder("fixtures");
         let mut build = cargo("build", &frozen().join("Cargo.toml"), &target);
         build.arg("--locked");
+        build.env("CARGO_BUILD_BUILD_DIR", builds::target());
         run(build);
         target.join("debug").join(file_name("every-slot"))
     })

@@ -91,7 +91,7 @@ pub fn target_folder(name: &str) -> PathBuf {
 }
 
 /// The target folder, in which the tests' scratch folder lies directly.
-fn target() -> PathBuf {
+pub fn target() -> PathBuf {
     let scratch = Path::new(env!("CARGO_TARGET_TMPDIR"));
     scratch.parent().expect("the target folder").to_owned()
 }

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 /// The folder with all fixtures' libraries, built when first asked for.
 ///
-/// Cargo locks the target folder, so test programs may build at the same time.
+/// Cargo locks the folders, so test programs may build at the same time.
 pub fn folder() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(build)
@@ -18,12 +18,16 @@ pub fn folder() -> &'static Path {
 
 fn build() -> PathBuf {
     // The tests' scratch folder lies directly in the target folder.
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("fixtures");
+    let scratch = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let of_tests = scratch.parent().expect("the target folder");
+    let target = of_tests.join("fixtures");
     let status = Command::new(env!("CARGO"))
         .args(["build", "--locked", "--quiet", "--manifest-path"])
         .arg(manifest())
         .arg("--target-dir")
         .arg(&target)
+        // Most dependencies are there already. A cargo that does not know this folder makes them again.
+        .env("CARGO_BUILD_BUILD_DIR", of_tests)
         // A target for the tests themselves would move the libraries to another folder.
         .env_remove("CARGO_BUILD_TARGET")
         .status()

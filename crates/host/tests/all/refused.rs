@@ -160,7 +160,7 @@ fn a_library_with_several_plugins_under_another_name() {
     assert_eq!(
         message(&error_of(&file), &file),
         "cannot load the plugin libplugin.so: it holds several plugins (builds_on, \
-         turnpath_surfaces); name the file after the one that you want, libbuilds_on.so"
+         conics); name the file after the one that you want, libbuilds_on.so"
     );
 }
 

@@ -14,9 +14,10 @@ use turnpath_plugin_test::{Conformance, Promise, Trial};
 type Seen = (&'static str, Check, &'static str);
 
 /// The faults of each fixture; one without faults passes.
-const SEEN: [(&str, &[Seen]); 19] = [
+const SEEN: [(&str, &[Seen]); 20] = [
     ("bowl-file", &[]),
     ("builds-on", &[]),
+    ("conics", &[]),
     ("constant-arc", &[]),
     (
         "host-keys",
@@ -78,9 +79,10 @@ const SEEN: [(&str, &[Seen]); 19] = [
 ];
 
 /// Those that are asked very often: fixtures are built without optimisation.
-const SLOW: [&str; 5] = [
+const SLOW: [&str; 6] = [
     "bowl-file",
     "builds-on",
+    "conics",
     "plain-compensator",
     "template-compensator",
     "template-surface",
@@ -117,6 +119,7 @@ fn trials(fixture: &str) -> Vec<Trial> {
                 .with_files_in(folder),
         ],
         "builds-on" => vec![Trial::of("rippled-conic").with("radius = \"40 mm\"")],
+        "conics" => vec![Trial::of("labs-conic").with("radius = \"40 mm\"")],
         "template-feed" => vec![Trial::of("even-pitch").promising(Promise::Residual)],
         "template-velocity" => {
             vec![Trial::of("five-points").promising(Promise::ExactOnCubics)]
