@@ -14,6 +14,26 @@ use super::request::AbiRequest;
 use super::root::RootRef;
 use newer::Sampler;
 
+/// A root with one more function, `seventh`, of this type.
+macro_rules! grown_root {
+    ($seventh:ty) => {
+        #[repr(C)]
+        #[derive(StableAbi)]
+        #[sabi(kind(Prefix(prefix_ref = RootRef)))]
+        pub struct Root {
+            pub catalogue: extern "C" fn() -> RString,
+            pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
+            pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
+            pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
+            pub compensator: extern "C" fn(AbiRequest) -> Answer<OwnedCompensator>,
+            #[sabi(last_prefix_field)]
+            pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
+            pub spindle: extern "C" fn(AbiRequest) -> Answer<OwnedSpindle>,
+            pub seventh: $seventh,
+        }
+    };
+}
+
 /// The boundary of one day: one more slot, and one more property and method of samplers.
 #[allow(dead_code, reason = "a test needs a part of it")]
 mod newer {
@@ -49,19 +69,13 @@ mod newer {
         owned by OwnedSampler
     }
 
-    #[repr(C)]
-    #[derive(StableAbi)]
-    #[sabi(kind(Prefix(prefix_ref = RootRef)))]
-    pub struct Root {
-        pub catalogue: extern "C" fn() -> RString,
-        pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
-        pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
-        pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
-        pub compensator: extern "C" fn(AbiRequest) -> Answer<OwnedCompensator>,
-        #[sabi(last_prefix_field)]
-        pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
-        pub spindle: extern "C" fn(AbiRequest) -> Answer<OwnedSpindle>,
-        pub seventh: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
+    grown_root!(extern "C" fn(AbiRequest) -> Answer<OwnedSurface>);
+
+    /// Another boundary of that day, whose new slot has another type.
+    pub mod otherwise {
+        use super::*;
+
+        grown_root!(extern "C" fn() -> RString);
     }
 }
 
@@ -115,39 +129,9 @@ fn an_older_library_loads_and_what_it_lacks_has_its_default() {
     assert_eq!(sampler.continues(block), Ok(Continuation::End));
 }
 
-/// Another one in place of `newer`: the field that was added has another type.
-#[allow(dead_code, reason = "only its layout counts")]
-mod otherwise_newer {
-    use super::super::compensator::OwnedCompensator;
-    use super::super::feed::OwnedFeed;
-    use super::super::reply::Answer;
-    use super::super::request::AbiRequest;
-    use super::super::sampler::OwnedSampler;
-    use super::super::spindle::OwnedSpindle;
-    use super::super::surface::OwnedSurface;
-    use super::super::velocity::OwnedVelocity;
-    use abi_stable::StableAbi;
-    use abi_stable::std_types::RString;
-
-    #[repr(C)]
-    #[derive(StableAbi)]
-    #[sabi(kind(Prefix(prefix_ref = RootRef)))]
-    pub struct Root {
-        pub catalogue: extern "C" fn() -> RString,
-        pub surface: extern "C" fn(AbiRequest) -> Answer<OwnedSurface>,
-        pub feed: extern "C" fn(AbiRequest) -> Answer<OwnedFeed>,
-        pub sampler: extern "C" fn(AbiRequest) -> Answer<OwnedSampler>,
-        pub compensator: extern "C" fn(AbiRequest) -> Answer<OwnedCompensator>,
-        #[sabi(last_prefix_field)]
-        pub velocity: extern "C" fn(AbiRequest) -> Answer<OwnedVelocity>,
-        pub spindle: extern "C" fn(AbiRequest) -> Answer<OwnedSpindle>,
-        pub seventh: extern "C" fn() -> RString,
-    }
-}
-
 #[test]
 fn newer_libraries_load_under_this_host_if_they_fit_each_other() {
-    let (newer, otherwise) = (newer::RootRef::LAYOUT, otherwise_newer::RootRef::LAYOUT);
+    let (newer, otherwise) = (newer::RootRef::LAYOUT, newer::otherwise::RootRef::LAYOUT);
     for library in [newer, otherwise] {
         assert!(!layout::is_not_newer::<RootRef>(library));
     }
