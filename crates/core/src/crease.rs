@@ -163,6 +163,8 @@ mod tests {
     }
 
     impl Surface for Valley {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
             let off = x - 0.7;
             (off.squared() + self.radius * self.radius).sqrt() * self.slope

@@ -296,6 +296,8 @@ mod tests {
     }
 
     impl Surface for Bowl {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             let square = x.squared() + y.squared() * 1.3;
             let on_surface = (-(x.squared() + y.squared()) + self.rim * self.rim).sqrt() * 0.0;
@@ -307,6 +309,8 @@ mod tests {
     struct Valley;
 
     impl Surface for Valley {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
             let off = x - 0.7;
             (off.squared() + 1e-16).sqrt() * 0.1

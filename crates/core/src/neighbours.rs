@@ -199,6 +199,8 @@ mod tests {
     }
 
     impl Surface for Disc {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             // NaN beyond the rim.
             (-(x.squared() + y.squared()) + self.rim * self.rim).sqrt() * 0.0

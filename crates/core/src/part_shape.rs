@@ -300,6 +300,8 @@ mod tests {
     }
 
     impl Surface for Conic {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             let square = x.squared() + y.squared();
             let root = (-(square * ((1.0 + self.k) * self.c * self.c)) + 1.0).sqrt();
@@ -342,6 +344,8 @@ mod tests {
     struct Cylinder;
 
     impl Surface for Cylinder {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             let across = x * Scalar::cos(0.3) + y * Scalar::sin(0.3);
             -(-across.squared() + 100.0).sqrt() + 10.0
@@ -363,6 +367,8 @@ mod tests {
     struct Torus;
 
     impl Surface for Torus {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             let from_axis = (-y.squared() + 8.0 * 8.0).sqrt() + (20.0 - 8.0);
             -(from_axis.squared() - x.squared()).sqrt() + 20.0
@@ -388,6 +394,8 @@ mod tests {
     }
 
     impl Surface for Cone {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             let square = (x - self.middle).squared() + y.squared();
             let at_tip = square.less(S::constant(1e-50));
@@ -403,6 +411,8 @@ mod tests {
     }
 
     impl Surface for BareCone {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             let [to_x, to_y] = self.middle;
             ((x - to_x).squared() + (y - to_y).squared()).sqrt() * self.slope
@@ -413,6 +423,8 @@ mod tests {
     struct Thorn(f64);
 
     impl Surface for Thorn {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             let square = x.squared() + y.squared();
             let at_tip = square.less(S::constant(1e-30));
@@ -437,6 +449,8 @@ mod tests {
     }
 
     impl Surface for Edge {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             let across = x + y * self.turn - self.at;
             let square = across.squared();

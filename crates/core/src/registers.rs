@@ -15,13 +15,29 @@ pub fn in_widest<L: Loop>(one: L) -> L::Output {
     return one.call();
 }
 
+/// A loop over [lanes](crate::Lanes) that can go without them.
+pub trait LaneLoop: Loop {
+    /// The same results, with the same bits, from one number after the other.
+    fn one_by_one(self) -> Self::Output;
+}
+
+/// Runs a loop over lanes in the widest registers. An x86 CPU with 128 bits alone takes one number
+/// after the other: lanes would not make it much faster, and the compiler spends as long on them as on
+/// the wide registers together.
+pub fn lanes_in_widest<L: LaneLoop>(one: L) -> L::Output {
+    #[cfg(target_arch = "x86_64")]
+    return x86::lanes_in_widest(one);
+    #[cfg(not(target_arch = "x86_64"))]
+    return one.call();
+}
+
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use std::sync::LazyLock;
 
     use pulp::x86::{V3, V4};
 
-    use super::Loop;
+    use super::{LaneLoop, Loop};
 
     /// The environment variable that asks for registers.
     const VARIABLE: &str = "TURNPATH_LANES";
@@ -46,6 +62,10 @@ mod x86 {
         WIDEST.run(one)
     }
 
+    pub(super) fn lanes_in_widest<L: LaneLoop>(one: L) -> L::Output {
+        WIDEST.run_lanes(one)
+    }
+
     impl Registers {
         /// The widest registers of the CPU that are no wider than those that are asked for. A word that
         /// asks for none does not count.
@@ -63,6 +83,14 @@ mod x86 {
         pub(crate) fn run<L: Loop>(self, one: L) -> L::Output {
             match self {
                 Self::Base => one.call(),
+                Self::Avx2(registers) => registers.vectorize(one),
+                Self::Avx512(registers) => registers.vectorize(one),
+            }
+        }
+
+        pub(crate) fn run_lanes<L: LaneLoop>(self, one: L) -> L::Output {
+            match self {
+                Self::Base => one.one_by_one(),
                 Self::Avx2(registers) => registers.vectorize(one),
                 Self::Avx512(registers) => registers.vectorize(one),
             }

@@ -158,6 +158,8 @@ mod tests {
     struct Saddle;
 
     impl Surface for Saddle {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             x * y * 0.16
         }

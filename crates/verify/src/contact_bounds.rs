@@ -75,6 +75,8 @@ mod tests {
     struct Cone(f64);
 
     impl Surface for Cone {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             (x.squared() + y.squared() + 1e-12).sqrt() * self.0
         }

@@ -130,6 +130,8 @@ mod tests {
     struct Waves;
 
     impl Surface for Waves {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             (x * 0.4 + y.squared() * 0.1).sin() * 0.3 + x.powi(3) * y * 0.01
         }

@@ -6,7 +6,7 @@
 
 use super::columns::GradientSeries;
 use super::formula::Surface;
-use crate::registers::Loop;
+use crate::registers::{LaneLoop, Loop};
 use crate::strip::{Group, STRIP, blank, gather, groups, scatter};
 use crate::{Dual, Lanes, Scalar, Series, Taylor};
 
@@ -146,6 +146,16 @@ impl<T: Surface, const N: usize> Loop for InLanes<SlopesAlong<'_, T, N>> {
     #[inline(always)]
     fn call(self) {
         self.0.through::<Lanes<WIDTH>>();
+    }
+}
+
+impl<L: Loop> LaneLoop for InLanes<L>
+where
+    Self: Loop<Output = L::Output>,
+{
+    #[inline(always)]
+    fn one_by_one(self) -> L::Output {
+        self.0.call()
     }
 }
 

@@ -12,6 +12,11 @@ use crate::Scalar;
 /// The formula must also hold beyond the aperture, since the tool runs over the rim. Where the
 /// formula has no value it gives NaN.
 pub trait Surface: Send + Sync {
+    /// Whether the compiler makes the loops over the formula once more for each width of [vector
+    /// registers](crate::registers). Without them, and with the same bits, a formula compiles several times as
+    /// fast: for those that few points go through, as in tests.
+    const IN_WIDE_REGISTERS: bool = true;
+
     /// Whether the compiler puts series of many curves side by side in vector registers. It does so, and
     /// nothing is faster, if the formula has neither loops nor calls and is marked `#[inline(always)]`:
     /// sums, products, quotients, roots and choices. All ways give the same bits.

@@ -8,7 +8,7 @@ mod points;
 use serde::{Deserialize, Serialize};
 
 use crate::orders::SeriesOrders;
-use crate::registers::{Loop, in_widest};
+use crate::registers::{LaneLoop, Loop, in_widest, lanes_in_widest};
 use crate::{ORDER, Result, Series, StrategyError};
 use curves::{HeightsAlong, InLanes, SlopesAlong};
 use points::{Heights, Slopes};
@@ -97,14 +97,14 @@ pub struct SurfaceData {
 impl<T: Surface> SurfaceModel for T {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        in_widest(Heights(self, x, y, z));
+        lanes::<T, _>(Heights(self, x, y, z));
         Ok(())
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
         let Gradients { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        in_widest(Slopes(self, x, y, out));
+        lanes::<T, _>(Slopes(self, x, y, out));
         Ok(())
     }
 
@@ -161,13 +161,23 @@ impl<T: Surface> SurfaceModel for T {
     }
 }
 
+/// Runs a loop over lanes.
+fn lanes<T: Surface, L: LaneLoop>(one: L) -> L::Output {
+    // What a constant block rules out is not compiled.
+    match const { T::IN_WIDE_REGISTERS } {
+        true => lanes_in_widest(one),
+        false => one.one_by_one(),
+    }
+}
+
 /// Gives curves their heights.
 fn heights_along<T: Surface, const N: usize>(along: HeightsAlong<'_, T, N>) {
-    // What a constant block rules out is not compiled.
-    if T::SIDE_BY_SIDE {
+    if const { !T::IN_WIDE_REGISTERS } {
+        along.call();
+    } else if const { T::SIDE_BY_SIDE } {
         in_widest(along);
     } else if const { N <= T::HEIGHT_COEFFICIENTS_IN_LANES } {
-        in_widest(InLanes(along));
+        lanes_in_widest(InLanes(along));
     } else {
         along.call();
     }
@@ -175,10 +185,12 @@ fn heights_along<T: Surface, const N: usize>(along: HeightsAlong<'_, T, N>) {
 
 /// Gives curves their heights and slopes.
 fn slopes_along<T: Surface, const N: usize>(along: SlopesAlong<'_, T, N>) {
-    if T::SIDE_BY_SIDE {
+    if const { !T::IN_WIDE_REGISTERS } {
+        along.call();
+    } else if const { T::SIDE_BY_SIDE } {
         in_widest(along);
     } else if const { N <= T::SLOPE_COEFFICIENTS_IN_LANES } {
-        in_widest(InLanes(along));
+        lanes_in_widest(InLanes(along));
     } else {
         along.call();
     }

@@ -2,7 +2,7 @@
 
 use super::columns::Gradients;
 use super::formula::Surface;
-use crate::registers::Loop;
+use crate::registers::{LaneLoop, Loop};
 use crate::{Dual, Lanes, Scalar};
 
 /// How many points go through a formula together. The number is large enough to fill the vector
@@ -25,7 +25,15 @@ impl<T: Surface> Loop for Heights<'_, T> {
         for ((z, x), y) in zs.iter_mut().zip(xs).zip(ys) {
             *z = surface.sag(Lanes(*x), Lanes(*y)).0;
         }
-        for ((z, x), y) in z_rest.iter_mut().zip(x_rest).zip(y_rest) {
+        Heights(surface, x_rest, y_rest, z_rest).one_by_one();
+    }
+}
+
+impl<T: Surface> LaneLoop for Heights<'_, T> {
+    #[inline(always)]
+    fn one_by_one(self) {
+        let Self(surface, x, y, z) = self;
+        for ((z, x), y) in z.iter_mut().zip(x).zip(y) {
             *z = surface.sag(*x, *y);
         }
     }
@@ -49,13 +57,20 @@ impl<T: Surface> Loop for Slopes<'_, T> {
             let sag = sag_and_slopes(surface, Lanes(*x), Lanes(*y));
             (*z, *zx, *zy) = (sag.value.0, sag.dx.0, sag.dy.0);
         }
-        for ((((x, y), z), zx), zy) in x_rest
-            .iter()
-            .zip(y_rest)
-            .zip(z_rest)
-            .zip(zx_rest)
-            .zip(zy_rest)
-        {
+        let rest = Gradients {
+            z: z_rest,
+            zx: zx_rest,
+            zy: zy_rest,
+        };
+        Slopes(surface, x_rest, y_rest, rest).one_by_one();
+    }
+}
+
+impl<T: Surface> LaneLoop for Slopes<'_, T> {
+    #[inline(always)]
+    fn one_by_one(self) {
+        let Self(surface, x, y, Gradients { z, zx, zy }) = self;
+        for ((((x, y), z), zx), zy) in x.iter().zip(y).zip(z).zip(zx).zip(zy) {
             let sag = sag_and_slopes(surface, *x, *y);
             (*z, *zx, *zy) = (sag.value, sag.dx, sag.dy);
         }

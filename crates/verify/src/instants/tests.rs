@@ -20,6 +20,8 @@ enum Shape {
 }
 
 impl Surface for Shape {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         match self {
             Self::Waves { height } => ((x * 1.3).sin() + (y * 0.9).cos()) * *height,
@@ -163,6 +165,8 @@ fn batches_are_of_nearly_one_size_and_miss_no_segment() {
 struct Counted(Arc<AtomicUsize>);
 
 impl Surface for Counted {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         self.0.fetch_add(1, Ordering::Relaxed);
         ((x * 1.3).sin() + (y * 0.9).cos()) * 0.02

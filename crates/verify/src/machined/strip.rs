@@ -182,6 +182,8 @@ mod tests {
     struct Flat;
 
     impl Surface for Flat {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
             x * 0.0
         }

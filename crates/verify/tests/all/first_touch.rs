@@ -144,6 +144,8 @@ fn far_beyond_the_part_a_single_maximum_is_not_taken_for_granted() {
     // Flat at the part, and steep waves 3 mm away from it.
     struct Shore;
     impl Surface for Shore {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
             let far = (x - 3.0) * 4.0;
             (x * 50.0).sin() * 0.003 / ((-far * 4.0).exp() + 1.0)

@@ -16,6 +16,8 @@ struct Ring {
 }
 
 impl Surface for Ring {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let off = (x.squared() + y.squared() + 1e-24).sqrt() - self.radius;
         (off.squared() + 1e-24).sqrt() * self.slope

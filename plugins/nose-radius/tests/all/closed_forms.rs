@@ -49,6 +49,8 @@ struct Plane {
 }
 
 impl Surface for Plane {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         x * self.slope_x + y * self.slope_y
     }
@@ -60,6 +62,8 @@ struct Sphere {
 }
 
 impl Surface for Sphere {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let q = (x.squared() + y.squared()) / self.radius;
         q / ((-q / self.radius + 1.0).sqrt() + 1.0)
@@ -72,6 +76,8 @@ struct Cylinder {
 }
 
 impl Surface for Cylinder {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         let q = x.squared() / self.radius;
         q / ((-q / self.radius + 1.0).sqrt() + 1.0)

@@ -16,6 +16,8 @@ const NOSE: f64 = 1.0;
 struct Rippled(Toric, SinusoidalArray);
 
 impl Surface for Rippled {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         self.0.sag(x, y) + self.1.sag(x, y)
     }
@@ -103,6 +105,8 @@ proptest! {
 struct Waves;
 
 impl Surface for Waves {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         (x * 20.0).cos() * 0.01
     }
@@ -146,6 +150,8 @@ fn over_waves_too_narrow_for_the_nose_it_stops_at_the_first_touch() {
 struct Lattice;
 
 impl Surface for Lattice {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let wave = std::f64::consts::TAU;
         ((x * wave).cos() + (y * wave).cos()) * 0.01

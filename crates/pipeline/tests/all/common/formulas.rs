@@ -10,6 +10,8 @@ pub struct Conicoid {
 }
 
 impl Surface for Conicoid {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let square = x.squared() + y.squared();
         let bend = (1.0 + self.conic) * self.curvature * self.curvature;
@@ -25,6 +27,8 @@ pub struct Segment {
 }
 
 impl Surface for Segment {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let slant = Scalar::hypot(self.vertex, self.off_axis).copysign(self.vertex);
         let (sin, cos) = (self.off_axis / slant, self.vertex / slant);
@@ -43,6 +47,8 @@ pub struct Waves {
 }
 
 impl Surface for Waves {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         ((x * self.wave + 0.3).sin() + (y * (1.3 * self.wave) - x * 0.2).cos()) * self.height
     }
@@ -52,6 +58,8 @@ impl Surface for Waves {
 pub struct Plane(pub f64, pub f64, pub f64);
 
 impl Surface for Plane {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         x * self.0 + y * self.1 + self.2
     }

@@ -21,6 +21,8 @@ pub struct Astigmatic {
 }
 
 impl Surface for Astigmatic {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         x * y * (2.0 * self.k)
     }
@@ -32,6 +34,8 @@ pub struct Plane {
 }
 
 impl Surface for Plane {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         x * self.slope
     }
@@ -44,6 +48,8 @@ pub struct Ball {
 }
 
 impl Surface for Ball {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let root = (-(x.squared() + y.squared()) + self.radius * self.radius).sqrt();
         if self.radius > 0.0 {
@@ -60,6 +66,8 @@ pub struct Paraboloid {
 }
 
 impl Surface for Paraboloid {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         (x.squared() + y.squared()) * (0.5 / self.radius)
     }
@@ -71,6 +79,8 @@ pub struct Trough {
 }
 
 impl Surface for Trough {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         -(-x.squared() + self.radius * self.radius).sqrt() + self.radius
     }
@@ -83,6 +93,8 @@ pub struct Groove {
 }
 
 impl Surface for Groove {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         (x.squared() + self.width * self.width).sqrt() * self.slope
     }
@@ -95,6 +107,8 @@ pub struct Waves {
 }
 
 impl Surface for Waves {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         (x * self.wave_number).sin() * self.height
     }
@@ -108,6 +122,8 @@ pub struct Pocket {
 }
 
 impl Surface for Pocket {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let off = (x - self.x).squared() + (y - self.y).squared();
         (off - self.radius * self.radius).sqrt() * 0.0
