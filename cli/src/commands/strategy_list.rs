@@ -47,6 +47,7 @@ impl StrategyList {
     /// # Errors
     /// When the hash of a library cannot be calculated.
     pub fn new(catalogue: &Catalogue, slots: &[Slot]) -> Result<Self, LoadError> {
+        catalogue.hash_all()?;
         let of_slot = |slot: &Slot| {
             let slot = *slot;
             let all = catalogue.strategies();

@@ -11,7 +11,9 @@ use turnpath_plugin::Offer;
 use crate::error::MOST_COLUMNS;
 use crate::loader::{self, Library};
 use crate::own_strategy::OwnTraits;
-use crate::{Admission, LibraryFile, LoadError, OwnPlugin, Plugin, SourceHash, Strategy};
+use crate::{
+    Admission, HashError, LibraryFile, LoadError, OwnPlugin, Plugin, SourceHash, Strategy,
+};
 
 /// The strategies by slot and name, of linked and of loaded plugins.
 #[derive(Debug, Clone, Default)]
@@ -180,9 +182,10 @@ impl Catalogue {
         let Library {
             crate_name,
             version,
+            hash,
             offers,
         } = library;
-        let from = Some((file.path().to_owned(), file.hash().clone()));
+        let from = Some((file.path().to_owned(), hash));
         self.add(plugin(&crate_name, &version, from), of_crate(offers))
     }
 
@@ -232,6 +235,15 @@ impl Catalogue {
             .iter()
             .find(|((of, known), _)| *of == slot && *known == name)
             .map(|(_, strategy)| strategy)
+    }
+
+    /// Calculates the hashes of all plugins, side by side. They are kept.
+    ///
+    /// # Errors
+    /// When the copy of a library cannot be read.
+    pub fn hash_all(&self) -> Result<(), HashError> {
+        let plugins = self.plugins.par_iter();
+        plugins.try_for_each(|plugin| plugin.sha256().map(drop))
     }
 
     /// The plugins in the order in which they were added.

@@ -7,7 +7,6 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use turnpath_plugin::loading::{Age, SYMBOL_PREFIX};
 
 use crate::native;
 use crate::private_copy::PrivateCopy;
@@ -16,6 +15,9 @@ use crate::{LoadError, Refusal, SourceHash, image};
 /// Largest library. A plugin with all its debug information has a tenth of that; the limit is on the
 /// memory that a file can take.
 const MOST_BYTES: u64 = 1 << 28;
+/// How many libraries of a folder have copies that stay open, so that they can be hashed later. Libraries of
+/// larger folders are hashed as they are read: systems allow a program some hundreds of open files.
+const MOST_OPEN: usize = 64;
 /// The extensions of libraries. A plugin folder may hold other files too.
 const EXTENSIONS: [&str; 3] = ["so", "dylib", "dll"];
 
@@ -48,13 +50,10 @@ impl Loadable {
     /// Loads the library, as a [`Catalogue`](crate::Catalogue) of another process will. Nothing comes of a
     /// library that the loader or the boundary refuses, or whose symbol is not that of an entry.
     pub fn try_load(&self) {
-        if !self.symbol.starts_with(SYMBOL_PREFIX) {
-            return;
-        }
         if let Ok(entry) = native::load(&self.file, &self.symbol)
-            && let Ok(None) = entry.offers(Age::NotNewer)
+            && let Ok(None) = entry.offers_if_not_newer()
         {
-            let _ = entry.offers(Age::Newer);
+            let _ = entry.offers_of_newer();
         }
     }
 }
@@ -72,7 +71,7 @@ impl LibraryFile {
     /// # Errors
     /// When there is no such file, or it cannot be read or copied, or is too large.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, LoadError> {
-        Self::read_with(&mut Vec::new(), file.as_ref())
+        Self::read_with(&mut Vec::new(), file.as_ref(), false)
     }
 
     /// Reads the libraries that lie directly in a folder, in the order of their names: the files
@@ -82,10 +81,11 @@ impl LibraryFile {
     /// When the folder or one of the libraries cannot be read, or what passes cannot be copied.
     pub fn read_folder(folder: impl AsRef<Path>) -> Result<Vec<Self>, LoadError> {
         let files = libraries_in(folder.as_ref())?;
+        let hash_now = files.len() > MOST_OPEN;
         let share = files.len().div_ceil(rayon::current_num_threads()).max(1);
         let read = files.par_chunks(share).flat_map_iter(|files| {
             let mut buffer = Vec::new();
-            let read = |file: &PathBuf| Self::read_with(&mut buffer, file);
+            let read = |file: &PathBuf| Self::read_with(&mut buffer, file, hash_now);
             files.iter().map(read).collect::<Vec<_>>()
         });
         let read: Vec<_> = read.collect();
@@ -93,7 +93,7 @@ impl LibraryFile {
     }
 
     /// Reads a library through a buffer. Fresh memory for each library would take longer than the reading.
-    fn read_with(buffer: &mut Vec<u8>, file: &Path) -> Result<Self, LoadError> {
+    fn read_with(buffer: &mut Vec<u8>, file: &Path, hash_now: bool) -> Result<Self, LoadError> {
         let path = read_bytes(buffer, file)?;
         let symbol = match image::entry_symbol(buffer, &stem(&path)) {
             Ok(symbol) => symbol,
@@ -106,7 +106,10 @@ impl LibraryFile {
                 });
             }
         };
-        let hashable = |copy: &PrivateCopy| SourceHash::of_copy(path.clone(), copy.open()?);
+        let hashable = |copy: &PrivateCopy| match hash_now {
+            true => Ok(SourceHash::of(buffer)),
+            false => SourceHash::of_copy(path.clone(), copy.open()?),
+        };
         let copy = PrivateCopy::of(buffer);
         let with_hash = copy.and_then(|copy| Ok((hashable(&copy)?, copy)));
         let (hash, copy) = with_hash.map_err(|source| LoadError::NoCopy {

@@ -1,5 +1,5 @@
-//! Loads libraries: their code one after the other. Then their layouts are compared, side by side as far as they are
-//! not newer than this program.
+//! Loads libraries: their code one after the other. Then their layouts are compared, side by side as far
+//! as the libraries are not newer than this program.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use turnpath_core::printable_line;
 use turnpath_plugin::Offer;
 use turnpath_plugin::calls::Callee;
-use turnpath_plugin::loading::{Age, SYMBOL_PREFIX};
+use turnpath_plugin::loading::SYMBOL_PREFIX;
 
 use crate::library::CheckedCopy;
 use crate::native::{self, Entry};
@@ -25,6 +25,8 @@ pub struct Library {
     pub crate_name: String,
     /// That crate's version.
     pub version: String,
+    /// The hash of the bytes that were loaded.
+    pub hash: SourceHash,
     /// The strategies of the plugin.
     pub offers: Vec<Offer>,
 }
@@ -57,16 +59,16 @@ pub fn load(files: &[LibraryFile]) -> Vec<Result<Library, LoadError>> {
             break;
         }
     }
-    // What is newer or refused is opened again below, in order.
-    let with_files = loaded.par_iter().zip(files);
-    with_files.for_each(|(code, file)| {
-        if let Ok(code) = code {
-            let _ = open(code, file, Age::NotNewer);
-        }
+    let side_by_side = loaded.into_par_iter().zip(files);
+    let opened = side_by_side.map(|(code, file)| {
+        let code = code?;
+        open_if_not_newer(&code, file)?;
+        Ok(code)
     });
-    let in_order = loaded.into_iter().zip(files);
+    let opened: Vec<Result<Arc<LoadedCode>, LoadError>> = opened.collect();
+    let in_order = opened.into_iter().zip(files);
     in_order
-        .map(|(code, file)| library(code?.as_ref(), file))
+        .map(|(code, file)| library(&*code?, file))
         .collect()
 }
 
@@ -96,28 +98,34 @@ fn code_of(file: &LibraryFile) -> Result<Arc<LoadedCode>, LoadError> {
     Ok(code)
 }
 
-/// What the library offers, if the boundary accepts it. `None` where it is opened as one that is not newer than
-/// this program, and is newer or does not fit.
-fn open<'a>(
-    code: &'a LoadedCode,
-    file: &LibraryFile,
-    age: Age,
-) -> Result<Option<&'a [Offer]>, LoadError> {
-    if let Some(offers) = code.offers.get() {
-        return Ok(Some(offers));
+/// Opens the entry of a library that is not newer than this program.
+fn open_if_not_newer(code: &LoadedCode, file: &LibraryFile) -> Result<(), LoadError> {
+    if code.offers.get().is_none() {
+        let _mark = callee(file).enter();
+        let offers = code.entry.offers_if_not_newer();
+        if let Some(offers) = offers.map_err(|error| file.refused(error.into()))? {
+            let _ = code.offers.set(offers);
+        }
     }
-    let _mark = callee(file).enter();
-    let offers = code.entry.offers(age);
-    let offers = offers.map_err(|error| file.refused(error.into()))?;
-    Ok(offers.map(|offers| &**code.offers.get_or_init(|| offers)))
+    Ok(())
 }
 
+/// The library. Its entry is opened here if it was not opened before.
 fn library(code: &LoadedCode, file: &LibraryFile) -> Result<Library, LoadError> {
-    let offers = open(code, file, Age::Newer)?.unwrap_or_default();
+    let offers = match code.offers.get() {
+        Some(offers) => offers,
+        None => {
+            let _mark = callee(file).enter();
+            let offers = code.entry.offers_of_newer();
+            let offers = offers.map_err(|error| file.refused(error.into()))?;
+            code.offers.get_or_init(|| offers)
+        }
+    };
     Ok(Library {
         crate_name: code.symbol.replacen(SYMBOL_PREFIX, "", 1),
         version: offers.first().map_or("", Offer::crate_version).to_owned(),
-        offers: offers.to_vec(),
+        hash: code.hash.clone(),
+        offers: offers.clone(),
     })
 }
 

@@ -13,7 +13,7 @@ use crate::source_hash::{HashError, SourceHash};
 
 /// A crate that registers strategies, or a part of the program that makes its own. A crate is linked
 /// into the program or loaded from a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Plugin {
     /// The package's name, `turnpath-surfaces`.
     pub name: String,
@@ -87,6 +87,7 @@ impl Strategy {
     pub fn plugin(&self) -> &Arc<Plugin> {
         &self.plugin
     }
+
     /// What tells a strategy of the program from another one of its name and its source; `None` for a
     /// strategy of a crate, which its plugin stands for.
     pub fn identity(&self) -> Option<&Identity> {

@@ -33,7 +33,7 @@ enum Source {
 
 /// The copy of a library cannot be read, so that its hash cannot be calculated.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot read {}", path.display())]
+#[error("cannot read the private copy of {}", path.display())]
 pub struct HashError {
     /// The library's own file.
     pub path: PathBuf,
@@ -83,7 +83,7 @@ impl SourceHash {
                 let hex = hex.get_or_init(|| of_whole_file(copy)).as_deref();
                 hex.map_err(|error| HashError {
                     path: path.clone(),
-                    source: io::Error::new(error.kind(), format!("its private copy: {error}")),
+                    source: io::Error::new(error.kind(), error.to_string()),
                 })
             }
         }
@@ -116,18 +116,14 @@ fn of_whole_file(mut file: &File) -> io::Result<String> {
     sha256_hex_of_reader(file)
 }
 
-/// A hash that cannot be calculated is like itself alone.
-impl PartialEq for SourceHash {
-    fn eq(&self, other: &Self) -> bool {
-        self.is_of_same_bytes(other).unwrap_or(false)
-    }
-}
-
-impl Eq for SourceHash {}
-
+/// The hash, if it is known.
 impl fmt::Debug for SourceHash {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("SourceHash").field(&self.hex()).finish()
+        let hex = match &*self.0 {
+            Source::Known { hex, .. } => Some(hex),
+            Source::Copy { hex, .. } => hex.get().and_then(|hex| hex.as_ref().ok()),
+        };
+        f.debug_tuple("SourceHash").field(&hex).finish()
     }
 }
 
@@ -160,8 +156,15 @@ mod tests {
         ];
         let others = [SourceHash::of(b"abd"), of_copy(b"ab"), of_copy(b"abd")];
         for one in &same {
-            assert!(same.iter().all(|other| one == other));
-            assert!(others.iter().all(|other| one != other));
+            assert!(
+                same.iter()
+                    .all(|other| one.is_of_same_bytes(other).unwrap())
+            );
+            assert!(
+                others
+                    .iter()
+                    .all(|other| !one.is_of_same_bytes(other).unwrap())
+            );
         }
     }
 

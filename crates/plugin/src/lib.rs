@@ -82,9 +82,9 @@ pub mod prelude {
 #[doc(hidden)]
 pub mod loading {
     pub use crate::abi::catalogue::UnknownKind;
-    pub use crate::abi::entry::{Age, inspect};
+    pub use crate::abi::entry::inspect;
     pub use crate::head::{BOUNDARY_VERSION, BoundaryVersion, OpenError, SYMBOL_PREFIX};
-    pub use crate::offer::open;
+    pub use crate::offer::{open_if_not_newer, open_newer};
 }
 
 /// For the macros: the items that their expansion names.

@@ -8,7 +8,7 @@ use turnpath_core::{
 };
 
 use crate::abi::catalogue::CatalogueEntry;
-use crate::abi::entry::{self, Age};
+use crate::abi::entry;
 use crate::abi::request::AbiRequest;
 use crate::abi::root::{self, Constructed, RootRef};
 use crate::calls::Callee;
@@ -156,8 +156,8 @@ pub fn linked() -> Vec<Offer> {
     offers(root, entries)
 }
 
-/// The strategies of the library that exports `entry`. `None` where it is opened as one that is not newer
-/// than this program, and is newer or does not fit.
+/// The strategies of the library that exports `entry`, if it has nothing that this program lacks, and
+/// fits it; else `None`. Libraries may be opened so side by side.
 ///
 /// # Errors
 /// If the entry does not belong to this version of the boundary.
@@ -166,15 +166,36 @@ pub fn linked() -> Vec<Offer> {
 /// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`](crate::head::SYMBOL_PREFIX),
 /// in a library that stays loaded for the rest of the program.
 #[allow(unsafe_code)] // the boundary: the caller guarantees the properties of the library
-pub unsafe fn open(
+pub unsafe fn open_if_not_newer(
     entry: *const u8,
-    age: Age,
 ) -> std::result::Result<Option<Vec<Offer>>, OpenError> {
-    let opened = || {
+    let opened = without_panics(|| {
         // SAFETY: the caller makes the same promise.
-        let opened = unsafe { entry::open(entry, age) };
-        Ok(opened.map(|opened| opened.map(|(root, entries)| offers(root, entries))))
-    };
-    // The comparison of layouts panics where a description refers to what is not in it.
-    guarded(opened).unwrap_or(Err(OpenError::Damaged))
+        unsafe { entry::open_if_not_newer(entry) }
+    });
+    Ok(opened?.map(|(root, entries)| offers(root, entries)))
+}
+
+/// The strategies of a newer library. One such library is opened after the other.
+///
+/// # Errors
+/// If the entry does not belong to this version of the boundary, or does not fit this program or a newer
+/// library that was opened before.
+///
+/// # Safety
+/// That of [`open_if_not_newer`].
+#[allow(unsafe_code)] // the boundary: the caller guarantees the properties of the library
+pub unsafe fn open_newer(entry: *const u8) -> std::result::Result<Vec<Offer>, OpenError> {
+    let (root, entries) = without_panics(|| {
+        // SAFETY: the caller makes the same promise.
+        unsafe { entry::open_newer(entry) }
+    })?;
+    Ok(offers(root, entries))
+}
+
+/// The comparison of layouts panics where a description refers to what is not in it.
+fn without_panics<T>(
+    open: impl FnOnce() -> std::result::Result<T, OpenError>,
+) -> std::result::Result<T, OpenError> {
+    guarded(|| Ok(open())).unwrap_or(Err(OpenError::Damaged))
 }

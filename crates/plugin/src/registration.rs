@@ -78,6 +78,13 @@ impl Registration {
         all
     }
 
+    /// The registration of this name that is linked in here.
+    pub fn named(slot: Slot, name: &str) -> Option<Self> {
+        Self::all()
+            .into_iter()
+            .find(|one| one.info.slot == slot && one.info.name == name)
+    }
+
     registrar!(surfaces, Surface, Surface, SurfaceModel, "surface model");
     registrar!(
         surface_models,

@@ -1,6 +1,8 @@
 //! Remarks on what the strategies are made of: on the data of a surface, what was filled and where the
 //! path leaves them; and on strategies that are not the same on every machine.
 
+use std::sync::Arc;
+
 use turnpath_core::Slot;
 use turnpath_host::{Catalogue, Plugin};
 use turnpath_pipeline::{DataReach, Farthest, data_reach};
@@ -38,11 +40,11 @@ impl Job {
 /// The recipe's strategies whose last bits depend on the machine, a remark for each plugin. Of
 /// `surfaces` that is known since they were made.
 fn inexact(recipe: &Recipe, catalogue: &Catalogue, surfaces: &[String]) -> Vec<Remark> {
-    let of_plugin = |plugin: &Plugin| {
+    let of_plugin = |plugin: &Arc<Plugin>| {
         let mut strategies: Vec<String> = Vec::new();
         for choice in Slot::ALL.into_iter().flat_map(|slot| recipe.choices(slot)) {
             let strategy = catalogue.find(choice.slot, choice.name());
-            if strategy.is_none_or(|strategy| strategy.plugin().as_ref() != plugin) {
+            if strategy.is_none_or(|strategy| !Arc::ptr_eq(strategy.plugin(), plugin)) {
                 continue;
             }
             let text = format!("{} {}", choice.slot, choice.name());

@@ -103,8 +103,8 @@ pub use turnpath_core::{Axis, Derivative, Limit, Quantity, Slot, Tolerance};
 pub use turnpath_drawing::{Dots, DrawingError, Figure, Size};
 pub use turnpath_files::{FileError, FolderError};
 pub use turnpath_host::{
-    Admission, Catalogue, Identity, LibraryFile, LoadError, Loadable, OwnPlugin, OwnStrategy,
-    OwnSurface, Plugin, Refusal, Strategy, SurfaceNeed, calls,
+    Admission, Catalogue, HashError, Identity, LibraryFile, LoadError, Loadable, OwnPlugin,
+    OwnStrategy, OwnSurface, Plugin, Refusal, SourceHash, Strategy, SurfaceNeed, calls,
 };
 pub use turnpath_lens::Side;
 pub use turnpath_maps::{

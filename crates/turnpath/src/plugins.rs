@@ -1,5 +1,7 @@
 //! Plugins that a recipe lists, and the plugins that a run used.
 
+use std::sync::Arc;
+
 use turnpath_core::Slot;
 use turnpath_host::{Catalogue, LoadError, Plugin};
 use turnpath_recipe::{Diagnostic, Recipe, Spanned};
@@ -38,12 +40,12 @@ fn not_loaded(recipe: &Recipe, listed: &Spanned<String>, error: LoadError) -> Er
 }
 
 /// The plugins of a recipe's strategies, each once.
-pub fn used<'a>(recipe: &Recipe, catalogue: &'a Catalogue) -> Vec<&'a Plugin> {
-    let mut used: Vec<&Plugin> = Vec::new();
+pub fn used<'a>(recipe: &Recipe, catalogue: &'a Catalogue) -> Vec<&'a Arc<Plugin>> {
+    let mut used: Vec<&Arc<Plugin>> = Vec::new();
     for choice in Slot::ALL.into_iter().flat_map(|slot| recipe.choices(slot)) {
         if let Some(strategy) = catalogue.find(choice.slot, choice.name()) {
-            let plugin = strategy.plugin().as_ref();
-            if !used.contains(&plugin) {
+            let plugin = strategy.plugin();
+            if !used.iter().any(|other| Arc::ptr_eq(other, plugin)) {
                 used.push(plugin);
             }
         }

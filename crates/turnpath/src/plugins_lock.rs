@@ -107,6 +107,7 @@ impl PluginsLock {
     /// # Errors
     /// When the hash of a library cannot be calculated.
     pub fn text_of(catalogue: &Catalogue) -> Result<String, LoadError> {
+        catalogue.hash_all()?;
         let mut plugins = BTreeSet::new();
         for plugin in catalogue.plugins() {
             if let (Some(file), Some(sha256)) = (&plugin.file, plugin.sha256()?) {

@@ -79,6 +79,10 @@ impl Job {
         if !has_folder && !outputs.drawings.is_empty() {
             return Err(DrawingFileError::NoFolder.into());
         }
+        // The report needs them. What cannot be hashed shall not fail a run at its end.
+        for plugin in used(&self.recipe, &self.catalogue) {
+            plugin.sha256()?;
+        }
         match &outputs.destination {
             Destination::Nowhere => self.run_nowhere(observer),
             Destination::Memory => self.run_in_memory(observer),

@@ -44,7 +44,7 @@ fn unknown(choice: &Choice, catalogue: &Catalogue) -> Diagnostic {
     }
     loaded.fold(diagnostic, |diagnostic, plugin| {
         let strategies = catalogue.strategies();
-        let of_plugin = strategies.filter(|strategy| strategy.plugin() == plugin);
+        let of_plugin = strategies.filter(|strategy| Arc::ptr_eq(strategy.plugin(), plugin));
         let names: Vec<String> = of_plugin
             .map(|strategy| format!("{} `{}`", strategy.info().slot, strategy.info().name))
             .collect();

@@ -383,17 +383,26 @@ fn of_two_libraries_that_are_refused_the_first_is_named() {
     assert!(matches!(error, LoadError::UnusableName { .. }), "{error}");
 }
 
-/// They are read through memory that they share.
+/// They are read through memory that they share. Those of a large folder are hashed as they are read,
+/// the copies of others later.
 #[test]
 fn each_library_of_a_folder_has_the_hash_of_its_own_bytes() {
-    let folder = tempfile::tempdir().unwrap();
-    let bytes = |i: u8| vec![i; 40_000 / (1 + usize::from(i))];
-    for i in 0..20 {
-        fs::write(folder.path().join(format!("lib{i:02}.so")), bytes(i)).unwrap();
-    }
-    let libraries = LibraryFile::read_folder(folder.path()).unwrap();
-    assert_eq!(libraries.len(), 20);
-    for (i, library) in (0..).zip(&libraries) {
-        assert_eq!(library.sha256().unwrap(), sha256_hex(&bytes(i)), "{i}");
+    for refused in [20u8, 70] {
+        let folder = fixtures::plugin_folder(&["conics", "nan", "constant-arc"]);
+        let bytes = |i: u8| vec![i; 40_000 / (1 + usize::from(i))];
+        for i in 0..refused {
+            fs::write(folder.path().join(format!("z{i:02}.so")), bytes(i)).unwrap();
+        }
+        let libraries = LibraryFile::read_folder(folder.path()).unwrap();
+        assert_eq!(libraries.len(), usize::from(refused) + 3);
+        for library in &libraries {
+            let bytes = fs::read(library.path()).unwrap();
+            let path = library.path().display();
+            assert_eq!(library.sha256().unwrap(), sha256_hex(&bytes), "{path}");
+        }
+        let loadable = libraries
+            .iter()
+            .filter(|library| library.loadable().is_some());
+        assert_eq!(loadable.count(), 3);
     }
 }

@@ -4,6 +4,7 @@ use abi_stable::StableAbi;
 use abi_stable::library::{AbiHeaderRef, CheckTypeLayout, LibHeader, RootModuleResult};
 use abi_stable::prefix_type::PrefixRefTrait;
 use abi_stable::std_types::RStr;
+use abi_stable::type_layout::TypeLayout;
 
 use super::catalogue::{CatalogueEntry, CatalogueError, entries};
 use super::layout;
@@ -58,46 +59,63 @@ pub fn own() -> (RootRef, Vec<CatalogueEntry>) {
     )
 }
 
-/// How old a library is, beside this program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Age {
-    /// It has nothing that this program lacks. Such libraries may be opened side by side.
-    NotNewer,
-    /// It has more. Such libraries are compared with each other, so they are opened one after the other.
-    Newer,
-}
+/// What a library offers: its root, and the strategies of its own crate.
+pub type Opened = (RootRef, Vec<CatalogueEntry>);
 
-/// Opens the entry that a library exports, and lists the strategies of its own crate. `None` where the
-/// library is opened as one that is not newer, and is newer or does not fit.
+/// Opens the entry of a library that has nothing that this program lacks, and fits it. `None` for any
+/// other. Entries may be opened so side by side.
 ///
 /// # Safety
 /// `entry` is the address of a symbol whose name begins with
 /// [`SYMBOL_PREFIX`](crate::head::SYMBOL_PREFIX), in a library that stays loaded for the rest of the
 /// program.
-pub unsafe fn open(
-    entry: *const u8,
-    age: Age,
-) -> Result<Option<(RootRef, Vec<CatalogueEntry>)>, OpenError> {
+pub unsafe fn open_if_not_newer(entry: *const u8) -> Result<Option<Opened>, OpenError> {
     // SAFETY: the caller makes the same promise.
-    let Some((crate_name, root)) = (unsafe { open_root::<RootRef>(entry, age) })? else {
-        return Ok(None);
-    };
-    let entries = entries(&root.catalogue()(), |name| name == crate_name);
-    let entries = entries.map_err(|error| match error {
-        CatalogueError::Damaged => OpenError::NotAPlugin,
-        CatalogueError::UnknownKind(unknown) => OpenError::UnknownKind(unknown),
-    })?;
-    Ok(Some((root, entries)))
+    let root = unsafe { root_if_not_newer::<RootRef>(entry) }?;
+    root.map(own_strategies).transpose()
 }
 
-/// Checks and opens an entry: the name of its crate, and its root. `None` as for [`open`].
+/// Opens the entry of a newer library. Such libraries are compared with each other, so one is opened
+/// after the other.
 ///
 /// # Safety
-/// That of [`open`].
-pub unsafe fn open_root<R: StableAbi + PrefixRefTrait>(
+/// That of [`open_if_not_newer`].
+pub unsafe fn open_newer(entry: *const u8) -> Result<Opened, OpenError> {
+    // SAFETY: the caller makes the same promise.
+    let entry = unsafe { checked(entry) }?;
+    layout::check_newer::<RootRef>(entry.layout).map_err(OpenError::Layout)?;
+    // SAFETY: the layouts were just compared.
+    own_strategies((entry.crate_name, unsafe { entry.root() }?))
+}
+
+/// The name of the crate of an entry, and its root; `None` as for [`open_if_not_newer`].
+///
+/// # Safety
+/// That of [`open_if_not_newer`].
+pub unsafe fn root_if_not_newer<R: StableAbi + PrefixRefTrait>(
     entry: *const u8,
-    age: Age,
 ) -> Result<Option<(&'static str, R)>, OpenError> {
+    // SAFETY: the caller makes the same promise.
+    let entry = unsafe { checked(entry) }?;
+    if !layout::is_not_newer::<R>(entry.layout) {
+        return Ok(None);
+    }
+    // SAFETY: the layouts were just compared.
+    Ok(Some((entry.crate_name, unsafe { entry.root() }?)))
+}
+
+/// An entry whose head was checked.
+struct CheckedEntry {
+    crate_name: &'static str,
+    library: &'static LibHeader,
+    layout: &'static TypeLayout,
+}
+
+/// Checks the head of an entry.
+///
+/// # Safety
+/// That of [`open_if_not_newer`].
+unsafe fn checked(entry: *const u8) -> Result<CheckedEntry, OpenError> {
     // SAFETY: every version of a plugin entry begins with a head, and the symbol's name marks an
     // entry.
     let head = unsafe { entry.cast::<EntryHead>().read_unaligned() };
@@ -109,14 +127,30 @@ pub unsafe fn open_root<R: StableAbi + PrefixRefTrait>(
     let library = header
         .upgrade()
         .map_err(|error| OpenError::Layout(error.to_string()))?;
-    let layout = library.layout().ok_or(OpenError::NotAPlugin)?;
-    match age {
-        Age::NotNewer if !layout::is_not_newer::<R>(layout) => return Ok(None),
-        Age::NotNewer => {}
-        Age::Newer => layout::check_newer::<R>(layout).map_err(OpenError::Layout)?,
+    Ok(CheckedEntry {
+        crate_name: entry.crate_name.as_str(),
+        library,
+        layout: library.layout().ok_or(OpenError::NotAPlugin)?,
+    })
+}
+
+impl CheckedEntry {
+    /// The root of the library.
+    ///
+    /// # Safety
+    /// The layout fits `R`.
+    unsafe fn root<R: PrefixRefTrait>(&self) -> Result<R, OpenError> {
+        // SAFETY: the caller compared the layouts.
+        let root = unsafe { self.library.unchecked_layout::<R>() };
+        root.map_err(|error| OpenError::Layout(error.to_string()))
     }
-    // SAFETY: the layouts were just compared.
-    let root = unsafe { library.unchecked_layout::<R>() };
-    let root = root.map_err(|error| OpenError::Layout(error.to_string()))?;
-    Ok(Some((entry.crate_name.as_str(), root)))
+}
+
+fn own_strategies((crate_name, root): (&str, RootRef)) -> Result<Opened, OpenError> {
+    let entries = entries(&root.catalogue()(), |name| name == crate_name);
+    let entries = entries.map_err(|error| match error {
+        CatalogueError::Damaged => OpenError::NotAPlugin,
+        CatalogueError::UnknownKind(unknown) => OpenError::UnknownKind(unknown),
+    })?;
+    Ok((root, entries))
 }

@@ -1,15 +1,16 @@
 //! Everything that crosses the plugin boundary. This is the only module with abi_stable in it.
 //!
 //! - [`declaration`] has the macro that makes both sides of a trait from one declaration.
-//! - [`called`] marks the calls of objects; [`loan`] and [`reply`] carry arguments and answers across; [`text`] writes and reads what is
-//!   small, and [`task`], [`laws`] and [`request`] have the arguments of several slots.
+//! - [`marked_object`] marks the calls of objects; [`loan`] and [`reply`] carry arguments and answers
+//!   across; [`text`] writes and reads what is small, and [`task`], [`laws`] and [`request`] have the
+//!   arguments of several slots.
 //! - [`surface`], [`locus`], [`feed`], [`sampler`], [`compensator`], [`velocity`] and [`spindle`]
 //!   have the declarations.
 //! - [`catalogue`], [`root`] and [`entry`] have what a library exports, and open it; [`layout`]
 //!   decides whether it fits.
 //!
-//! A batch crosses as slices. Laws, nodes, texts and the bytes of files are copied. The macros of abi_stable write all the
-//! `unsafe` code except for that in [`entry`] and [`called`].
+//! A batch crosses as slices. Laws, nodes, texts and the bytes of files are copied. The macros of
+//! abi_stable write all the `unsafe` code except for that in [`entry`] and [`marked_object`].
 //!
 //! What crosses can grow without a new number of the boundary: traits by methods with a default,
 //! texts by fields and words, lists of numbers at their ends, and the root by constructors.

@@ -3,11 +3,13 @@
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 
 use abi_stable::StableAbi;
-use abi_stable::abi_stability::abi_checking::check_layout_compatibility;
+use abi_stable::abi_stability::abi_checking::{
+    CheckingGlobals, check_layout_compatibility, check_layout_compatibility_with_globals,
+};
 use abi_stable::library::RawLibrary;
 use turnpath_core::{Continuation, Params, Revolutions};
 
-use super::entry::{Age, open_root};
+use super::entry::root_if_not_newer;
 use super::layout;
 use super::reply::{Returned, result};
 use super::request::AbiRequest;
@@ -107,10 +109,7 @@ fn root_of_a_library() -> newer::RootRef {
     let entry = entry.unwrap();
     std::mem::forget(library);
     // SAFETY: the symbol has the prefix, and the library stays loaded.
-    unsafe { open_root(entry, Age::NotNewer) }
-        .unwrap()
-        .unwrap()
-        .1
+    unsafe { root_if_not_newer(entry) }.unwrap().unwrap().1
 }
 
 #[test]
@@ -135,6 +134,11 @@ fn newer_libraries_load_under_this_host_if_they_fit_each_other() {
     for library in [newer, otherwise] {
         assert!(!layout::is_not_newer::<RootRef>(library));
     }
+    // Each of them fits this host alone.
+    let alone = CheckingGlobals::new();
+    let otherwise_alone =
+        check_layout_compatibility_with_globals(RootRef::LAYOUT, otherwise, &alone);
+    assert!(otherwise_alone.is_ok());
     assert_eq!(layout::check_newer::<RootRef>(newer), Ok(()));
     assert!(layout::check_newer::<RootRef>(otherwise).is_err());
     assert_eq!(layout::check_newer::<RootRef>(newer), Ok(()));

@@ -5,9 +5,10 @@
 //! the job's name, or on what else the ablation varies.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use serde_json::{Map, Value as Json, json};
-use turnpath_host::{Catalogue, Identity, sha256_hex};
+use turnpath_host::{Catalogue, Identity, Plugin, sha256_hex};
 use turnpath_post::POST_NAMES;
 use turnpath_recipe::{Recipe, Table, Value, Variant};
 
@@ -117,7 +118,7 @@ impl<'a> Keys<'a> {
     fn plugins(&self, recipe: &Recipe) -> Result<Vec<Json>, Error> {
         let mut used = plugins::used(recipe, self.catalogue);
         used.sort_by(|one, other| one.name.cmp(&other.name));
-        let one = |plugin: &turnpath_host::Plugin| {
+        let one = |plugin: &Arc<Plugin>| {
             let sha256 = plugin.sha256()?;
             Ok(json!({ "name": plugin.name, "version": plugin.version, "sha256": sha256 }))
         };
