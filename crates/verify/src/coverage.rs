@@ -19,8 +19,8 @@ use crate::touch::FirstTouch;
 const HALF_TURN: usize = SECTIONS as usize / 2;
 /// Passes of a line, two per turn, that are kept up to the point where its two sides meet. A spiral
 /// that ends at the axis has its widest gap between the second and the third pass of a line. A
-/// spiral whose feed runs out at the axis has it somewhat further out. As many are looked at before a smallest
-/// sum, and at the end of a block, since the path may end there.
+/// spiral whose feed runs out at the axis has it somewhat further out. A search looks at as many passes
+/// before each smallest sum. It looks at as many at the end of each block, since the path may end there.
 const INNERMOST: usize = 6;
 /// Passes of a line that are kept after that point, if the path goes on so far.
 const BEYOND: usize = 4;
@@ -425,6 +425,22 @@ mod tests {
         for path in paths {
             for block in [90, 180, 613, 1620, 4000] {
                 assert_meetings(path, block);
+            }
+        }
+        // In blocks of many passes: the sum falls to a smallest one, and falls a little more while passes
+        // behind it are missing.
+        let falling: Vec<f64> = (0..60).map(|turn| 18.3 - f64::from(turn)).collect();
+        let with = |others: [(usize, f64); 2]| {
+            let mut path = vec![5.0; 60];
+            for (place, x) in others {
+                path[place] = x;
+            }
+            path
+        };
+        let (far, near) = (with([(8, -4.5), (20, -4.9)]), with([(8, -4.5), (22, -4.9)]));
+        for path in [falling, far, near, vec![nan; 60]] {
+            for block in [180, 3600, 3780] {
+                assert_meetings(&path, block);
             }
         }
         // As a path inward: the sums fall over many turns, and rise behind the axis. Some blocks end just
