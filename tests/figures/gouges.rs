@@ -14,12 +14,11 @@ use rayon::prelude::*;
 use turnpath_core::interference::Conflict;
 use turnpath_core::{
     Compensator, DEG, Direction, Machine, Misfit, Overrun, ParamValue, Params, Part, Radial,
-    Result, Scalar, Slot, Strategy, SurfaceModel, Tolerance, Tool,
+    Scalar, Slot, Strategy, SurfaceModel, Tolerance, Tool,
 };
 use turnpath_pipeline::{Chain, JobSpec, Link, PipelineError, Preparation, largest_nose, prepare};
-use turnpath_surfaces::{
-    Astigmatic, Conic, OffAxisParaboloid, SinusoidalArray, Toric, XyPolynomial,
-};
+
+use crate::support::models::try_model;
 
 /// Which parts are tried, each with a nose, an included angle and a clearance angle that fail.
 const PARTS: Range<u64> = 0..36;
@@ -66,7 +65,8 @@ impl Case {
         let aperture_radius = seeded.between(1.0, 5.0);
         let hole = seeded.unit() < 0.3;
         let inner_radius = if hole { 0.3 * aperture_radius } else { 0.0 };
-        let (model, surface) = surface(seed % 6, aperture_radius, &mut seeded).unwrap();
+        let (model, params) = parameters(seed % 6, aperture_radius, &mut seeded);
+        let surface = try_model(model, &params).unwrap();
         let none = Params::new();
         // A torus ends within the reach of a nose that fills it: there only the part is looked at.
         let by_contact = model == "toric" || seed / 6 % 3 == 1;
@@ -129,22 +129,18 @@ fn link<T: ?Sized>(slot: Slot, strategy: Arc<T>) -> Link<T> {
     }
 }
 
-/// A surface of one model with hollows somewhere, and its name.
-fn surface(
-    model: u64,
-    a: f64,
-    seeded: &mut RandomNumbers,
-) -> Result<(&'static str, Arc<dyn SurfaceModel>)> {
+/// A model, and parameters with which it has hollows somewhere.
+fn parameters(model: u64, a: f64, seeded: &mut RandomNumbers) -> (&'static str, Params) {
     let none = Params::new();
-    Ok(match model {
+    match model {
         0 => {
             let params = none.with("k", seeded.between(0.02, 0.15) / a);
-            ("astigmatic", Arc::new(Astigmatic::new(&params)?))
+            ("astigmatic", params)
         }
         1 => {
             let params = none.with("radius", a * seeded.between(2.0, 6.0));
             let params = params.with("conic", seeded.between(-2.0, 1.0));
-            ("conic", Arc::new(Conic::new(&params)?))
+            ("conic", params)
         }
         2 => {
             let mut params = none;
@@ -154,12 +150,12 @@ fn surface(
                 vec![f64::from(i), f64::from(j), size * seeded.sign()]
             });
             params.set("terms", ParamValue::Rows(rows.collect()));
-            ("xy-polynomial", Arc::new(XyPolynomial::new(&params)?))
+            ("xy-polynomial", params)
         }
         3 => {
             let params = none.with("radius_rotation", a * seeded.between(3.0, 8.0));
             let params = params.with("radius_base", a * seeded.between(2.0, 8.0));
-            ("toric", Arc::new(Toric::new(&params)?))
+            ("toric", params)
         }
         4 => {
             let mut params = none.with("frequency_x", seeded.between(0.3, 0.8) / a);
@@ -169,15 +165,14 @@ fn surface(
             params = params.with("frequency_y", seeded.between(0.3, 0.8) / a);
             let form = "sum".to_owned();
             params.set("form", ParamValue::Text(form));
-            ("sinusoidal-array", Arc::new(SinusoidalArray::new(&params)?))
+            ("sinusoidal-array", params)
         }
         _ => {
             let params = none.with("vertex_radius", a * seeded.between(3.0, 9.0));
             let params = params.with("off_axis_distance", a * seeded.between(1.0, 4.0));
-            let surface = OffAxisParaboloid::new(&params)?;
-            ("off-axis paraboloid", Arc::new(surface))
+            ("off-axis-paraboloid", params)
         }
-    })
+    }
 }
 
 /// Angles and radii of the brute force's contacts.

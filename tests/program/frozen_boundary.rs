@@ -30,10 +30,10 @@ fn frozen() -> PathBuf {
 fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {
-        // The fixtures' folder: the dependencies of both are the same.
         let target = builds::target_folder("fixtures");
         let mut build = cargo("build", &frozen().join("Cargo.toml"), &target);
         build.arg("--locked");
+        // Most dependencies are those of the tests.
         build.env("CARGO_BUILD_BUILD_DIR", builds::target());
         run(build);
         target.join("debug").join(file_name("every-slot"))

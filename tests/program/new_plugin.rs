@@ -12,7 +12,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use crate::support::bench::{Answer, Bench, answer};
-use crate::support::builds::target_folder;
+use crate::support::builds::{self, target_folder};
 use crate::support::fixtures::file_name;
 use crate::support::repository;
 
@@ -66,12 +66,12 @@ fn call(bench: &Bench, folder: &Path, words: &[&str], build: Build) -> Answer {
 
 fn of_cargo(command: &mut Command, build: Build) {
     let shared = match build {
-        Build::AsThePageSays => "new-plugins",
+        Build::AsThePageSays => target_folder("new-plugins"),
         Build::WithTheFixtures => {
             command
                 .env("CARGO_PROFILE_DEV_OPT_LEVEL", "0")
                 .env("CARGO_PROFILE_DEV_DEBUG", "0");
-            "fixtures"
+            builds::target()
         }
     };
     // Cargo hands these of the tests on, and an author has none of them.
@@ -79,7 +79,7 @@ fn of_cargo(command: &mut Command, build: Build) {
         command.env_remove(name);
     }
     command
-        .env("CARGO_BUILD_BUILD_DIR", target_folder(shared))
+        .env("CARGO_BUILD_BUILD_DIR", shared)
         .env("CARGO_NET_OFFLINE", "true")
         .arg("--quiet");
 }

@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use crate::support::bench::Bench;
-use crate::support::builds::{cargo, run, target_folder};
+use crate::support::builds::{self, cargo, run, target_folder};
 use crate::support::fixtures::{file_name, plugin_folder};
 use crate::support::recipe::{SADDLE, changed, saddle_with, with_table};
 use crate::support::repository;
 use tempfile::TempDir;
 
 /// The author's manifest: one dependency, and none of this repository's settings. It has no debug
-/// information, like the fixtures, so that their dependencies serve here too.
+/// information, like the build of the tests, so that most of their dependencies serve here too.
 const MANIFEST: &str = r#"[package]
 name = "lab-sampler"
 version = "0.1.0"
@@ -55,11 +55,13 @@ fn own_library() -> &'static Path {
         let manifest = home.path().join("Cargo.toml");
         fs::write(&manifest, MANIFEST.replace("PLUGIN", &plugin)).expect("a manifest");
         fs::write(home.path().join("src/lib.rs"), source()).expect("a source file");
-        // The fixtures' versions: nothing is fetched, and little is built.
+        // The fixtures' versions, so that nothing is fetched.
         let lock = repository().join("tests/fixtures/Cargo.lock");
         fs::copy(lock, home.path().join("Cargo.lock")).expect("a lock file");
         let target = target_folder("fixtures");
-        run(cargo("build", &manifest, &target));
+        let mut build = cargo("build", &manifest, &target);
+        build.env("CARGO_BUILD_BUILD_DIR", builds::target());
+        run(build);
         target.join("debug").join(file_name("lab-sampler"))
     })
 }

@@ -6,8 +6,11 @@
 use std::sync::Arc;
 
 use serde_json::Value;
-use turnpath_core::{Misfit, ParamValue, Params, Strategy, SurfaceModel, Tool};
-use turnpath_surfaces::{Astigmatic, OffAxisParaboloid, SinusoidalArray, Toric, XyPolynomial};
+use turnpath_core::{Misfit, ParamValue, Params, SurfaceModel, Tool};
+// A plugin that nothing names is dropped by the linker.
+use turnpath_surfaces as _;
+
+use crate::models::try_model;
 
 const REFERENCE: &str = include_str!("../reference/dropcutter.json");
 
@@ -65,7 +68,7 @@ fn case(value: &Value) -> Case {
     let fits = value["fits"].as_bool().unwrap();
     Case {
         name: format!("{surface} {given} at {theta} rad"),
-        surface: model(surface, &params(given)),
+        surface: try_model(surface, &params(given)).unwrap(),
         aperture_radius: number("aperture_radius_mm"),
         tool: Tool {
             nose_radius: value["tool"]["nose_radius_mm"].as_f64().unwrap(),
@@ -95,19 +98,4 @@ fn params(given: &Value) -> Params {
         params.set(name, value);
     }
     params
-}
-
-fn model(name: &str, params: &Params) -> Arc<dyn SurfaceModel> {
-    match name {
-        Astigmatic::NAME => make::<Astigmatic>(params),
-        SinusoidalArray::NAME => make::<SinusoidalArray>(params),
-        Toric::NAME => make::<Toric>(params),
-        OffAxisParaboloid::NAME => make::<OffAxisParaboloid>(params),
-        XyPolynomial::NAME => make::<XyPolynomial>(params),
-        other => panic!("the reference has a surface `{other}` that this test does not know"),
-    }
-}
-
-fn make<T: Strategy + SurfaceModel + 'static>(params: &Params) -> Arc<dyn SurfaceModel> {
-    Arc::new(T::new(params).unwrap())
 }

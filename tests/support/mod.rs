@@ -6,6 +6,7 @@ pub mod bench;
 pub mod bench_with_plugins;
 pub mod builds;
 pub mod fixtures;
+pub mod models;
 pub mod recipe;
 
 use std::path::{Path, PathBuf};

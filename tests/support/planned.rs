@@ -5,9 +5,10 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use crate::models::model;
 use turnpath_core::{
     CentreBuffers, Compensator, Continuation, Direction, FeedStrategy, Locus, Machine, NM,
-    ParamValue, Params, Part, RadialRange, Result, Scalar, Setup, SpindleLaw, SpiralLaw, Strategy,
+    ParamValue, Params, Part, RadialRange, Result, Scalar, Setup, SpindleLaw, SpiralLaw,
     SurfaceModel, Task, Tolerance, Tool, ToolLocus,
 };
 use turnpath_surfaces::{Astigmatic, SinusoidalArray};
@@ -159,8 +160,8 @@ impl Case {
 
 /// AST-5: z = 0.08 ρ² sin 2θ, aperture 5 mm, R = 1 mm, 100 nm.
 pub fn ast_5(compensator: impl Compensator + 'static) -> Case {
-    let surface = Astigmatic::new(&Params::new().with("k", 0.08)).unwrap();
-    Case::new(Arc::new(surface), Arc::new(compensator), 5.0, 1.0, 100.0)
+    let surface = model::<Astigmatic>(&Params::new().with("k", 0.08));
+    Case::new(surface, Arc::new(compensator), 5.0, 1.0, 100.0)
 }
 
 /// MLA-5: 5 µm (cos 2π0.4x + cos 2π0.4y), radius 5 mm, R = 1 mm, 100 nm.
@@ -169,6 +170,6 @@ pub fn mla_5(compensator: impl Compensator + 'static) -> Case {
         .with("amplitude_x", 5e-3)
         .with("frequency_x", 0.4);
     params.set("form", ParamValue::Text("sum".to_owned()));
-    let surface = SinusoidalArray::new(&params).unwrap();
-    Case::new(Arc::new(surface), Arc::new(compensator), 10.0, 1.0, 100.0)
+    let surface = model::<SinusoidalArray>(&params);
+    Case::new(surface, Arc::new(compensator), 10.0, 1.0, 100.0)
 }

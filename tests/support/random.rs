@@ -4,8 +4,9 @@
 
 use std::sync::Arc;
 
+use crate::models::model;
 use proptest::prelude::{ProptestConfig, Strategy as Generator, prop};
-use turnpath_core::{Compensator, ParamValue, Params, Strategy, SurfaceModel};
+use turnpath_core::{Compensator, ParamValue, Params, SurfaceModel};
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::{SinusoidalArray, XyPolynomial};
 
@@ -24,7 +25,7 @@ pub fn array(amplitude: f64, frequency: f64, form: &str) -> Arc<dyn SurfaceModel
         .with("amplitude_x", amplitude)
         .with("frequency_x", frequency);
     params.set("form", ParamValue::Text(form.to_owned()));
-    Arc::new(SinusoidalArray::new(&params).unwrap())
+    model::<SinusoidalArray>(&params)
 }
 
 /// Terms of xy-polynomials of degree 4; those of the n-th degree are at most `largest[n]`.
@@ -44,7 +45,7 @@ pub fn terms(largest: [f64; 5]) -> impl Generator<Value = Vec<Vec<f64>>> {
 pub fn polynomial(terms: Vec<Vec<f64>>) -> Arc<dyn SurfaceModel> {
     let mut params = Params::new();
     params.set("terms", ParamValue::Rows(terms));
-    Arc::new(XyPolynomial::new(&params).unwrap())
+    model::<XyPolynomial>(&params)
 }
 
 /// One of the two compensators.

@@ -206,7 +206,7 @@ fn plugins() -> Result<PathBuf, Outcome> {
         "two-speeds",
         "--target-dir",
     ]);
-    call.arg(&built);
+    call.arg(&built).env("CARGO_BUILD_BUILD_DIR", target());
     match run(call) {
         Outcome::Passed => {}
         failed => return Err(failed),

@@ -1,8 +1,12 @@
 //! The constant law: its ends, and the feed that it derives on the saddle AST-5.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+#[path = "../../../tests/support/models.rs"]
+mod models;
+
 use std::sync::Arc;
 
+use models::model;
 use turnpath_constant::Constant;
 use turnpath_core::{
     Compensator, Continuation, Direction, FeedStrategy, Machine, NM, Params, Part, RadialRange,
@@ -43,12 +47,8 @@ fn task(inner: f64, direction: Direction) -> Task {
 }
 
 fn saddle(compensator: Arc<dyn Compensator>) -> ToolLocus {
-    let surface = Astigmatic::new(&Params::new().with("k", K)).unwrap();
-    ToolLocus::new(
-        Arc::new(surface),
-        compensator,
-        task(0.0, Direction::Inward).tool,
-    )
+    let surface = model::<Astigmatic>(&Params::new().with("k", K));
+    ToolLocus::new(surface, compensator, task(0.0, Direction::Inward).tool)
 }
 
 fn law(params: &Params, task: &Task, locus: &ToolLocus) -> Result<SpiralLaw> {
@@ -152,7 +152,7 @@ fn a_derived_feed_of_too_many_revolutions_is_left_to_the_host() {
 #[test]
 fn if_the_surface_ends_within_the_range_the_error_names_the_position() {
     let params = Params::new().with("radius", 2.0).with("conic", 0.0);
-    let surface = Arc::new(Conic::new(&params).unwrap());
+    let surface = model::<Conic>(&params);
     let task = task(0.0, Direction::Inward);
     let locus = ToolLocus::new(surface, Arc::new(Normal), task.tool);
     let error = law(&Params::new(), &task, &locus).unwrap_err();

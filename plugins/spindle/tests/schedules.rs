@@ -2,9 +2,13 @@
 //! feed.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+#[path = "../../../tests/support/models.rs"]
+mod models;
+
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use models::model;
 use turnpath_core::{
     AxisLimits, Direction, Machine, Misfit, NM, Params, Part, Path, RadialRange, Result,
     SpindleAsk, SpindleLaw, SpindleStrategy, SpiralLaw, Strategy, StrategyError, Task, Tolerance,
@@ -68,8 +72,8 @@ fn plan(
         spindle_speed: SPEED,
         machine,
     };
-    let surface = Astigmatic::new(&Params::new().with("k", K)).unwrap();
-    let locus = ToolLocus::new(Arc::new(surface), Arc::new(Uncompensated), tool);
+    let surface = model::<Astigmatic>(&Params::new().with("k", K));
+    let locus = ToolLocus::new(surface, Arc::new(Uncompensated), tool);
     let mut law = SpiralLaw::new();
     law.push(turns, [RIM, -RIM / turns, 0.0, 0.0, 0.0, 0.0]);
     let path = Path {

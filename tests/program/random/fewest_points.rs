@@ -19,7 +19,7 @@ use crate::support::bench::Bench;
 
 const SEED: u64 = 20_261_123;
 /// Recipes of every run of the tests, and of `cargo xtask long`.
-const CASES: u64 = 8;
+const CASES: u64 = 5;
 const MANY_CASES: u64 = 500;
 /// Revolutions of the largest block. Paths with very many points have smaller ones, but none here.
 const BLOCK: f64 = 64.0;

@@ -12,7 +12,7 @@ use crate::support::fixtures::plugin_folder;
 
 const SEED: u64 = 1_000_003;
 /// Recipes of every run of the tests, and of `cargo xtask long`.
-const CASES: u64 = 8;
+const CASES: u64 = 5;
 const MANY_CASES: u64 = 1000;
 /// Verdicts on the path itself, which its table has too.
 const OF_THE_PATH: [&str; 5] = ["interpolation", "residual", "form", "servo", "coverage"];

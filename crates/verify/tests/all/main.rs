@@ -2,6 +2,8 @@
 
 mod as_played;
 mod common;
+#[path = "../../../../tests/support/models.rs"]
+mod models;
 #[path = "../../../../tests/support/drop_cutter.rs"]
 mod reference;
 

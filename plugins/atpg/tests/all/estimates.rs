@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::{AtpgCase, Case, ast_5, ast_50, oap_213};
+use crate::models::model;
 use turnpath_atpg::AtpgSampler;
 use turnpath_core::{
     CentreSeries, Centres, DEG, Locus, Misfit, NodeList, ParamValue, Params, Path, Radial, Rates,
@@ -170,7 +171,7 @@ fn nodes_of_waves_are_those_of_all_samples() {
         .with("frequency_x", 0.4)
         .with("frequency_y", 0.7);
     waves.set("form", ParamValue::Text("sum".to_owned()));
-    let surface = Arc::new(SinusoidalArray::new(&waves).unwrap());
+    let surface = model::<SinusoidalArray>(&waves);
     let case = Case::new(surface, Arc::new(ZDirection), 10.0, 0.5, 50.0);
     compare(&case, NO_RIPPLE, 1);
 }
@@ -182,7 +183,7 @@ fn nodes_across_the_seams_of_a_lens_array_are_those_of_all_samples() {
         .with("radius", 8.0)
         .with("conic", 0.0);
     lenses.set("layout", ParamValue::Text("square".to_owned()));
-    let surface = Arc::new(LensletArray::new(&lenses).unwrap());
+    let surface = model::<LensletArray>(&lenses);
     let mut case = Case::new(surface, Arc::new(ZDirection), 8.0, 0.5, 200.0);
     case.task.tool.misfit = Misfit::CutWhatFits;
     compare(&case, NO_RIPPLE, 5);

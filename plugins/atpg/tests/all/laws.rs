@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{AtpgCase, Case, ast_5, ast_50, joints, oap_213, rate_at, words};
+use crate::models::model;
 use crate::random::{array, compensator, one_case_in, polynomial, terms};
 use proptest::prelude::{any, prop, prop_assert, proptest};
 use turnpath_atpg::{AtpgFeed, CubicFit, Residual, explicit_pairs};
@@ -239,7 +240,7 @@ fn check_law(case: &Case, law: &SpiralLaw, offset: f64) {
 }
 
 proptest! {
-    #![proptest_config(one_case_in(4))]
+    #![proptest_config(one_case_in(8))]
 
     #[test]
     fn on_polynomials_the_law_never_exceeds_the_residual_feed(
@@ -283,7 +284,7 @@ proptest! {
 fn a_part_without_a_feed_is_an_error_and_never_endless() {
     let sphere = |radius: f64| -> Arc<dyn SurfaceModel> {
         let params = Params::new().with("radius", radius).with("conic", 0.0);
-        Arc::new(Conic::new(&params).unwrap())
+        model::<Conic>(&params)
     };
     for fit in ["smooth", "cubic"] {
         for residual in ["held", "paper"] {

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{AtpgCase, Case, ast_5, ast_50, oap_213};
+use crate::models::model;
 use crate::random::one_case_in;
 use proptest::prelude::proptest;
 use turnpath_atpg::AtpgSampler;
@@ -15,6 +16,7 @@ use turnpath_core::{
     per_radian,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
+use turnpath_surfaces::SinusoidalArray;
 use turnpath_triangle_rotary::{Analytic, ThreePoint, TriangleRotary};
 
 /// Number of revolutions in the host's blocks.
@@ -298,6 +300,8 @@ fn nodes_of_the_contact_path_are_not_enough_for_the_compensated_one() {
 struct Bump;
 
 impl Surface for Bump {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         let (sin, cos) = Scalar::sin_cos(22.5 * DEG);
         let across = y * cos - x * sin;
@@ -322,6 +326,8 @@ fn the_sampler_sees_a_symmetric_ripple_narrower_than_the_largest_step() {
 fn on_a_flat_the_largest_step_is_the_limit() {
     struct Flat;
     impl Surface for Flat {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, _: S, _: S) -> S {
             S::constant(0.25)
         }
@@ -362,6 +368,8 @@ fn knots_of_the_smooth_law_cost_no_nodes() {
 fn a_path_without_a_number_is_an_error_that_names_the_position() {
     struct Hole;
     impl Surface for Hole {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             (x - y.squared() * 0.001 + 1.0).sqrt() * 0.01
         }
@@ -378,6 +386,8 @@ fn a_path_without_a_number_is_an_error_that_names_the_position() {
 fn a_surface_that_needs_endless_nodes_is_an_error() {
     struct Cusp;
     impl Surface for Cusp {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
             (x.squared() + 1e-12).sqrt()
         }
@@ -390,7 +400,7 @@ fn a_surface_that_needs_endless_nodes_is_an_error() {
 }
 
 proptest! {
-    #![proptest_config(one_case_in(4))]
+    #![proptest_config(one_case_in(8))]
 
     #[test]
     fn on_arrays_the_tolerance_holds(
@@ -405,7 +415,7 @@ proptest! {
             .with("frequency_y", 0.7 * frequency);
         let mut params = params;
         params.set("form", turnpath_core::ParamValue::Text("sum".to_owned()));
-        let surface = Arc::new(turnpath_surfaces::SinusoidalArray::new(&params).unwrap());
+        let surface = model::<SinusoidalArray>(&params);
         let case = |which: i32| match which {
             0 => Case::new(surface.clone(), Arc::new(ZDirection), 8.0, 0.5, 20.0),
             1 => Case::new(surface.clone(), Arc::new(Normal), 8.0, 0.5, 20.0),

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use crate::common::Case;
+use crate::models::model;
 use turnpath_atpg::AtpgFeed;
 use turnpath_ats::AtsFeed;
 use turnpath_constant::Constant;
@@ -99,7 +100,7 @@ impl Shape {
     fn surface(self) -> Arc<dyn SurfaceModel> {
         let conic = |radius: f64, conic: f64| {
             let params = Params::new().with("radius", radius).with("conic", conic);
-            Arc::new(Conic::new(&params).unwrap())
+            model::<Conic>(&params)
         };
         match self {
             Self::Flat => conic(1e9, 0.0),
@@ -107,18 +108,18 @@ impl Shape {
             Self::Bowl(filled) => conic(filled.recip(), -1.0),
             Self::Torus(rotation, base) => {
                 let params = Params::new().with("radius_rotation", rotation);
-                Arc::new(Toric::new(&params.with("radius_base", base)).unwrap())
+                model::<Toric>(&params.with("radius_base", base))
             }
             Self::Waves(amplitude, frequency) => {
                 let params = Params::new().with("amplitude_x", amplitude);
                 let mut params = params.with("frequency_x", frequency);
                 params.set("form", ParamValue::Text("sum".to_owned()));
-                Arc::new(SinusoidalArray::new(&params).unwrap())
+                model::<SinusoidalArray>(&params)
             }
             Self::LeaningBowl(aside) => {
                 let params = Params::new().with("vertex_radius", 0.9f64.recip());
                 let params = params.with("off_axis_distance", aside);
-                Arc::new(OffAxisParaboloid::new(&params).unwrap())
+                model::<OffAxisParaboloid>(&params)
             }
         }
     }

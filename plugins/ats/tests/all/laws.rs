@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use crate::common::{Case, ast_5, mla_5};
+use crate::models::model;
 use crate::random::{array, compensating, one_case_in, polynomial, terms};
 use proptest::prelude::{any, prop, proptest};
 use turnpath_atpg::AtpgFeed;
@@ -175,11 +176,11 @@ fn backwards_it_closes_at_the_axis() {
     let mut words = Params::new();
     words.set("inward", ParamValue::Text("backwards".to_owned()));
     let feed = AtsFeed::new(&words).unwrap();
-    let mirrored = Astigmatic::new(&Params::new().with("k", -0.08)).unwrap();
+    let mirrored = model::<Astigmatic>(&Params::new().with("k", -0.08));
     for (case, mirrored) in [
         (
             ast_5(ZDirection),
-            Case::new(Arc::new(mirrored), Arc::new(ZDirection), 5.0, 1.0, 100.0),
+            Case::new(mirrored, Arc::new(ZDirection), 5.0, 1.0, 100.0),
         ),
         (mla_5(ZDirection), mla_5(ZDirection)),
     ] {
@@ -256,6 +257,8 @@ fn near_the_rim_of_the_saddle_the_rate_swings_by_3_mm_a_turn() {
 fn an_edge_is_an_error_that_names_the_radius_and_a_way_out() {
     struct Roof;
     impl Surface for Roof {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
             (x.squared() + 1e-10).sqrt() * -0.05
         }
@@ -306,7 +309,7 @@ fn check(mut case: Case, inward: bool, offset: f64) {
 #[test]
 fn on_a_sphere_the_law_is_as_even_as_one_of_the_radius() {
     let params = Params::new().with("radius", 60.0).with("conic", 0.0);
-    let surface = Arc::new(Conic::new(&params).unwrap());
+    let surface = model::<Conic>(&params);
     for direction in [Direction::Outward, Direction::Inward] {
         let mut case = Case::new(surface.clone(), Arc::new(ZDirection), 20.0, 1.0, 100.0);
         case.task.direction = direction;
@@ -322,7 +325,7 @@ fn on_a_sphere_the_law_is_as_even_as_one_of_the_radius() {
 }
 
 proptest! {
-    #![proptest_config(one_case_in(4))]
+    #![proptest_config(one_case_in(8))]
 
     #[test]
     fn on_polynomials_the_law_is_smooth_covers_the_range_and_holds(
@@ -354,8 +357,8 @@ proptest! {
 #[test]
 fn a_law_whose_fast_angles_leave_the_part_is_refused_with_what_helps() {
     for direction in [Direction::Outward, Direction::Inward] {
-        let surface = Astigmatic::new(&Params::new().with("k", 1.25)).unwrap();
-        let mut case = Case::new(Arc::new(surface), Arc::new(ZDirection), 3.0, 0.3, 5000.0);
+        let surface = model::<Astigmatic>(&Params::new().with("k", 1.25));
+        let mut case = Case::new(surface, Arc::new(ZDirection), 3.0, 0.3, 5000.0);
         case.task.direction = direction;
         let refused = case.law(&AtsFeed::default()).unwrap_err().to_string();
         assert!(refused.contains("`atpg`"), "{refused}");

@@ -2,6 +2,8 @@
 
 #[path = "../../../../tests/support/planned.rs"]
 mod common;
+#[path = "../../../../tests/support/models.rs"]
+mod models;
 #[path = "../../../../tests/support/random.rs"]
 mod random;
 

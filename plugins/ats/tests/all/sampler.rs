@@ -139,7 +139,7 @@ fn a_knot_a_hair_beyond_a_blocks_start_is_where_it_starts() {
 }
 
 proptest! {
-    #![proptest_config(one_case_in(4))]
+    #![proptest_config(one_case_in(8))]
 
     #[test]
     fn on_arrays_both_axes_keep_their_tolerances(

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{Case, ast_5, mla_5};
+use crate::models::model;
 use crate::random::{array, compensating, one_case_in};
 use proptest::prelude::{any, prop, prop_assert, proptest};
 use turnpath_core::{Direction, NM, ParamValue, Params, SpiralLaw, Strategy, Surface, angle};
@@ -116,6 +117,8 @@ fn check_shape(case: &Case, law: &SpiralLaw) {
 fn on_a_flat_the_nose_alone_decides_or_a_tenth_of_the_range() {
     struct Flat;
     impl Surface for Flat {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: turnpath_core::Scalar>(&self, _: S, _: S) -> S {
             S::constant(0.0)
         }
@@ -138,6 +141,8 @@ fn on_a_flat_the_nose_alone_decides_or_a_tenth_of_the_range() {
 fn a_feed_that_divides_the_range_leaves_no_revolution_of_roundings() {
     struct Flat;
     impl Surface for Flat {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: turnpath_core::Scalar>(&self, _: S, _: S) -> S {
             S::constant(0.0)
         }
@@ -159,7 +164,7 @@ fn a_feed_that_divides_the_range_leaves_no_revolution_of_roundings() {
 #[test]
 fn a_part_without_surface_or_without_width_is_an_error() {
     let params = Params::new().with("radius", 2.0).with("conic", 0.0);
-    let sphere = Arc::new(Conic::new(&params).unwrap());
+    let sphere = model::<Conic>(&params);
     let beyond = Case::new(sphere, Arc::new(Uncompensated), 5.0, 1.0, 100.0);
     let error = beyond.law(&feed("half", false, 72.0, 20.0)).unwrap_err();
     assert!(
@@ -172,7 +177,7 @@ fn a_part_without_surface_or_without_width_is_an_error() {
 }
 
 proptest! {
-    #![proptest_config(one_case_in(4))]
+    #![proptest_config(one_case_in(8))]
 
     #[test]
     fn on_arrays_the_law_goes_from_end_to_end_and_keeps_the_residual(

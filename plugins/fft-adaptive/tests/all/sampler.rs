@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::{Case, mla_5};
+use crate::models::model;
 use crate::random::{array, compensating, one_case_in};
 use proptest::prelude::{any, prop_assert, prop_assert_eq, proptest};
 use turnpath_core::{
@@ -52,6 +53,8 @@ fn circles(rho: f64, turns: f64) -> SpiralLaw {
 fn waves(amplitude: f64, count: i32) -> Case {
     struct Waves(f64, i32);
     impl Surface for Waves {
+        const IN_WIDE_REGISTERS: bool = false;
+
         /// A cos(mθ) at every radius, from (x + iy)^m.
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             (y.atan2(x) * f64::from(self.1)).cos() * self.0
@@ -113,6 +116,8 @@ fn at_a_crest_the_step_is_the_chord_of_its_curvature() {
 fn as_printed_the_curve_is_the_circle_through_the_start() {
     struct Bowl;
     impl Surface for Bowl {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             (x.squared() + y.squared()) * 0.1
         }
@@ -169,7 +174,7 @@ fn the_steps_own_curvature_keeps_the_chord_within_the_tolerance() {
 #[test]
 fn points_of_a_turn_are_those_of_straight_chords() {
     let k = 3.84e-4;
-    let surface = Arc::new(Astigmatic::new(&Params::new().with("k", k)).unwrap());
+    let surface = model::<Astigmatic>(&Params::new().with("k", k));
     for (rho, tolerance) in [(20.0, 10.0), (20.0, 100.0), (5.0, 10.0)] {
         let case = Case::new(
             surface.clone(),
@@ -195,6 +200,8 @@ fn points_of_a_turn_are_those_of_straight_chords() {
 fn an_edge_is_an_error_that_names_the_position() {
     struct Roof;
     impl Surface for Roof {
+        const IN_WIDE_REGISTERS: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, _: S) -> S {
             (x.squared() + 1e-22).sqrt()
         }
@@ -215,7 +222,7 @@ fn an_edge_is_an_error_that_names_the_position() {
 #[test]
 fn the_axis_itself_is_not_an_obstacle() {
     let params = Params::new().with("k", 0.08);
-    let surface = Arc::new(Astigmatic::new(&params).unwrap());
+    let surface = model::<Astigmatic>(&params);
     for compensator in [
         Arc::new(ZDirection) as Arc<dyn Compensator>,
         Arc::new(Normal),
@@ -240,7 +247,7 @@ fn the_axis_itself_is_not_an_obstacle() {
 }
 
 proptest! {
-    #![proptest_config(one_case_in(4))]
+    #![proptest_config(one_case_in(8))]
 
     #[test]
     fn nodes_increase_begin_every_turn_and_do_not_depend_on_blocks(

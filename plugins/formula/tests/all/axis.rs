@@ -1,8 +1,8 @@
 //! The axis is a point like any other where the formula has all derivatives there.
 
-use turnpath_core::{Gradients, Series, SurfaceModel};
+use turnpath_core::{Gradients, Series};
 
-use crate::common::{formula, points};
+use crate::common::{points, surface};
 
 fn gradient(z: &str, x: f64, y: f64) -> [f64; 3] {
     let (mut height, mut zx, mut zy) = ([f64::NAN], [f64::NAN], [f64::NAN]);
@@ -11,7 +11,7 @@ fn gradient(z: &str, x: f64, y: f64) -> [f64; 3] {
         zx: &mut zx,
         zy: &mut zy,
     };
-    formula(z, &[]).gradient(&[x], &[y], out).unwrap();
+    surface(z, &[]).gradient(&[x], &[y], out).unwrap();
     [height[0], zx[0], zy[0]]
 }
 
@@ -19,7 +19,7 @@ fn gradient(z: &str, x: f64, y: f64) -> [f64; 3] {
 fn series(z: &str, x: f64, y: f64) -> Series {
     let mut height = [[f64::NAN; 5]];
     let (x, y) = ([x, 0.5, -0.25, 0.125, 0.0], [y, 0.75, 0.5, 0.0, -0.125]);
-    formula(z, &[])
+    surface(z, &[])
         .height_series(&[x], &[y], &mut height)
         .unwrap();
     height[0]
@@ -110,7 +110,7 @@ fn even_functions_of_rho_have_their_derivatives_at_the_axis() {
         ("mm*cosh(-20*rho/mm)", 1.0),
         ("mm*cos(20*hypot(y, x)/mm)", -1.0),
     ] {
-        let surface = formula(z, &[]);
+        let surface = surface(z, &[]);
         // Along (0.6 t, 0.8 t), ρ² is t².
         let (x, y) = ([0.0, 0.6, 0.0, 0.0, 0.0], [0.0, 0.8, 0.0, 0.0, 0.0]);
         let mut found = [[0.0; 5]];

@@ -4,5 +4,7 @@
 mod axis;
 mod common;
 mod messages;
+#[path = "../../../../tests/support/models.rs"]
+mod models;
 mod native;
 mod random;

@@ -1,6 +1,7 @@
 //! Arcs against closed forms, across blocks, and against the third paper's Fig. 10.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+use crate::models::model;
 use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, proptest};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -68,7 +69,7 @@ fn equal_angle(step: f64) -> Box<dyn Sampler> {
 }
 
 fn locus(task: &Task) -> ToolLocus {
-    let surface = Arc::new(Astigmatic::new(&Params::new().with("k", K)).unwrap());
+    let surface = model::<Astigmatic>(&Params::new().with("k", K));
     ToolLocus::new(surface, Arc::new(Uncompensated), task.tool)
 }
 

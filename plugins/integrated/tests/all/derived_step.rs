@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use crate::models::model;
 use turnpath_core::{
     Compensator, DEG, Direction, Machine, NM, NodeList, ParamValue, Params, Part, Path,
     RadialRange, Result, Revolutions, Sampler, Scalar, SpindleLaw, SpiralLaw, Strategy,
@@ -30,7 +31,7 @@ impl Case {
     /// AST-5 on its contact path: z = 0.08 ρ² sin 2θ, 101 revolutions.
     fn saddle(compensator: Arc<dyn Compensator>) -> Self {
         Self {
-            surface: Arc::new(Astigmatic::new(&Params::new().with("k", 0.08)).unwrap()),
+            surface: model::<Astigmatic>(&Params::new().with("k", 0.08)),
             compensator,
             rim: 2.5,
             revolutions: 101.0,
@@ -144,7 +145,7 @@ fn the_search_meets_ripples_narrower_than_a_degree() {
         .with("frequency_y", frequency);
     params.set("form", ParamValue::Text("product".into()));
     let case = Case {
-        surface: Arc::new(SinusoidalArray::new(&params).unwrap()),
+        surface: model::<SinusoidalArray>(&params),
         rim: 20.0,
         revolutions: 1000.0,
         tolerance: 10.0 * NM,
@@ -166,7 +167,7 @@ fn the_off_axis_paraboloid_takes_the_published_count() {
         .with("vertex_radius", 915.0)
         .with("off_axis_distance", 915.0);
     let case = Case {
-        surface: Arc::new(OffAxisParaboloid::new(&params).unwrap()),
+        surface: model::<OffAxisParaboloid>(&params),
         rim: 106.5,
         revolutions: 11_684.8,
         nose_radius: 1.04,
@@ -181,7 +182,7 @@ fn the_off_axis_paraboloid_takes_the_published_count() {
 fn where_nothing_bends_the_step_is_the_largest_one() {
     let params = Params::new().with("radius", 1e12).with("conic", 0.0);
     let case = Case {
-        surface: Arc::new(Conic::new(&params).unwrap()),
+        surface: model::<Conic>(&params),
         ..Case::saddle(Arc::new(ZDirection))
     };
     assert_eq!(case.derived().unwrap(), 45.0 * DEG);
@@ -191,7 +192,7 @@ fn where_nothing_bends_the_step_is_the_largest_one() {
 fn if_the_surface_ends_the_error_names_the_position() {
     let params = Params::new().with("radius", 2.0).with("conic", 0.0);
     let case = Case {
-        surface: Arc::new(Conic::new(&params).unwrap()),
+        surface: model::<Conic>(&params),
         ..Case::saddle(Arc::new(Uncompensated))
     };
     let error = case.derived().unwrap_err().to_string();

@@ -1,6 +1,7 @@
 //! Equal angles across blocks: one sequence, however the path is divided.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+use crate::models::model;
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
 use std::sync::Arc;
 use turnpath_core::{
@@ -40,7 +41,7 @@ fn task() -> Task {
 /// The nodes of a path of so many revolutions, sampled in blocks.
 fn nodes(step: f64, revolutions: f64, block: f64) -> Vec<f64> {
     let task = task();
-    let surface = Arc::new(Astigmatic::new(&Params::new().with("k", 0.08)).unwrap());
+    let surface = model::<Astigmatic>(&Params::new().with("k", 0.08));
     let locus = ToolLocus::new(surface, Arc::new(Uncompensated), task.tool);
     let mut law = SpiralLaw::new();
     law.push(revolutions, [2.5, -2.5 / revolutions, 0.0, 0.0, 0.0, 0.0]);

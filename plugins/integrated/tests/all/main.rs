@@ -3,3 +3,5 @@
 mod arcs;
 mod derived_step;
 mod equal_angle;
+#[path = "../../../../tests/support/models.rs"]
+mod models;

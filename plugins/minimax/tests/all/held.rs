@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use crate::common::{Case, ast_5, atpg, count, largest_error, minimax, mla_5, nodes, smooth_law};
+use crate::models::model;
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 use turnpath_core::{
-    NM, ParamValue, Params, PiecewisePolynomial, SpindleLaw, SpiralLaw, Strategy, UM, quintic,
+    NM, ParamValue, Params, PiecewisePolynomial, SpindleLaw, SpiralLaw, UM, quintic,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
 use turnpath_surfaces::SinusoidalArray;
@@ -113,7 +114,7 @@ proptest! {
             .with("frequency_x", frequency)
             .with("frequency_y", 0.7 * frequency);
         params.set("form", ParamValue::Text("sum".to_owned()));
-        let surface = Arc::new(SinusoidalArray::new(&params).unwrap());
+        let surface = model::<SinusoidalArray>(&params);
         let case = |which: i32| match which {
             0 => Case::new(surface.clone(), Arc::new(ZDirection), 1.6, 0.5, tolerance),
             1 => Case::new(surface.clone(), Arc::new(Normal), 1.6, 0.5, tolerance),

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use crate::common::{
     Case, ast_5, atpg, count, largest_error, minimax, nodes, nodes_between, params, smooth_law,
 };
+use crate::models::model;
 use std::sync::Arc;
 use turnpath_core::{NodeList, Params, Scalar, SpiralLaw, Strategy, Surface};
 use turnpath_minimax::MinimaxSampler;
@@ -29,8 +30,8 @@ fn slices_of_the_off_axis_paraboloid() {
     let params = Params::new()
         .with("vertex_radius", 915.0)
         .with("off_axis_distance", 915.0);
-    let surface = OffAxisParaboloid::new(&params).unwrap();
-    let case = Case::new(Arc::new(surface), Arc::new(ZDirection), 213.0, 1.04, 10.0);
+    let surface = model::<OffAxisParaboloid>(&params);
+    let case = Case::new(surface, Arc::new(ZDirection), 213.0, 1.04, 10.0);
     let law = smooth_law(&case);
     let starts = (0..6).map(|k| (law.end() * (f64::from(k) + 0.5) / 6.0).floor());
     let starts: Vec<f64> = starts.collect();
@@ -60,6 +61,8 @@ fn slices_of_the_off_axis_paraboloid() {
 struct Ramp;
 
 impl Surface for Ramp {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         x * 1e-6
     }

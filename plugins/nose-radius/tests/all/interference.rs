@@ -1,8 +1,11 @@
 //! The interference check on surfaces whose extremes have a closed form.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+use std::sync::Arc;
+
+use crate::models::model;
 use turnpath_core::interference::Conflict;
-use turnpath_core::{Compensator, Cut, DEG, Params, RadialRange, Scalar, Strategy, Tool};
+use turnpath_core::{Compensator, Cut, DEG, Params, RadialRange, Scalar, SurfaceModel, Tool};
 use turnpath_nose_radius::{Normal, ZDirection};
 use turnpath_surfaces::{Astigmatic, Conic};
 
@@ -21,8 +24,8 @@ fn tool(nose_radius: f64) -> Tool {
     }
 }
 
-fn saddle() -> Astigmatic {
-    Astigmatic::new(&Params::new().with("k", K)).unwrap()
+fn saddle() -> Arc<dyn SurfaceModel> {
+    model::<Astigmatic>(&Params::new().with("k", K))
 }
 
 /// g = kρ² sin 2θ: κ = 2k at the centre, |g_ρ| = 2kρ on the ridges, |g_θ|/ρ = 2kρ between them.
@@ -30,7 +33,7 @@ fn saddle() -> Astigmatic {
 fn extremes_of_the_saddle_are_those_of_the_closed_form() {
     let (surface, tool) = (saddle(), tool(1.0));
     let cut = Cut {
-        surface: &surface,
+        surface: &*surface,
         tool: &tool,
     };
     for compensator in [&ZDirection as &dyn Compensator, &Normal] {
@@ -51,7 +54,7 @@ fn extremes_of_the_saddle_are_those_of_the_closed_form() {
 #[test]
 fn a_nose_larger_than_the_hollow_is_in_conflict() {
     let params = Params::new().with("radius", 4.0).with("conic", 0.5);
-    let surface = Conic::new(&params).unwrap();
+    let surface = model::<Conic>(&params);
     let narrow = RadialRange {
         inner: 0.0,
         outer: 1.0,
@@ -59,7 +62,7 @@ fn a_nose_larger_than_the_hollow_is_in_conflict() {
     for (nose_radius, conflicts) in [(3.81, 0), (3.82, 1)] {
         let tool = tool(nose_radius);
         let cut = Cut {
-            surface: &surface,
+            surface: &*surface,
             tool: &tool,
         };
         let found = ZDirection.interference(cut, narrow).unwrap();
@@ -80,7 +83,7 @@ fn the_check_lists_every_misfit_with_a_value_that_would_do() {
     };
     let surface = saddle();
     let cut = Cut {
-        surface: &surface,
+        surface: &*surface,
         tool: &tool,
     };
     let found = ZDirection.interference(cut, REGION).unwrap();

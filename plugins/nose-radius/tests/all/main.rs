@@ -1,6 +1,8 @@
 //! What `turnpath-nose-radius` does from outside, each subject a module.
 
 mod common;
+#[path = "../../../../tests/support/models.rs"]
+mod models;
 #[path = "../../../../tests/support/drop_cutter.rs"]
 mod reference;
 

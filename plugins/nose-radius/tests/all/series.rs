@@ -4,13 +4,13 @@
 use std::sync::Arc;
 
 use crate::common::{centres, rates, series};
+use crate::models::{model, try_model};
 use serde_json::Value;
 use turnpath_core::{
-    Centres, Compensator, Cut, DEG, Params, Radial, Result, Series, Strategy, SurfaceModel, Tool,
-    ToolLocus,
+    Centres, Compensator, Cut, DEG, Params, Radial, Result, Series, SurfaceModel, Tool, ToolLocus,
 };
 use turnpath_nose_radius::{Normal, Uncompensated, ZDirection};
-use turnpath_surfaces::{Astigmatic, Toric};
+use turnpath_surfaces::Toric;
 
 const REFERENCE: &str = include_str!("../../../../tests/reference/compensators.json");
 
@@ -29,11 +29,7 @@ fn surface(name: &str, params: &Value) -> Arc<dyn SurfaceModel> {
         .fold(Params::new(), |params, (name, value)| {
             params.with(name, value.as_f64().unwrap())
         });
-    match name {
-        "astigmatic" => Arc::new(Astigmatic::new(&params).unwrap()),
-        "toric" => Arc::new(Toric::new(&params).unwrap()),
-        other => panic!("no surface {other}"),
-    }
+    try_model(name, &params).unwrap()
 }
 
 fn compensator(name: &str) -> Arc<dyn Compensator> {
@@ -101,7 +97,7 @@ fn bent() -> Arc<dyn SurfaceModel> {
     let params = Params::new()
         .with("radius_rotation", 9.0)
         .with("radius_base", -5.0);
-    Arc::new(Toric::new(&params).unwrap())
+    model::<Toric>(&params)
 }
 
 fn places() -> (Vec<f64>, Vec<f64>) {

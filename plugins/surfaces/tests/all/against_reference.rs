@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+use std::sync::Arc;
+
+use crate::models;
 use serde_json::Value;
 use turnpath_core::{
     GradientSeries, Gradients, ParamDefault, ParamValue, Params, Series, Strategy, SurfaceModel,
@@ -15,7 +18,7 @@ const RELATIVE: f64 = 1e-12;
 
 struct Case {
     name: String,
-    surface: Box<dyn SurfaceModel>,
+    surface: Arc<dyn SurfaceModel>,
     x: Series,
     y: Series,
     z: Series,
@@ -43,7 +46,7 @@ fn case(value: &Value) -> Case {
     }
 }
 
-fn model(name: &str, params: &Value) -> Box<dyn SurfaceModel> {
+fn model(name: &str, params: &Value) -> Arc<dyn SurfaceModel> {
     match name {
         Astigmatic::NAME => make::<Astigmatic>(params),
         Conic::NAME => make::<Conic>(params),
@@ -55,7 +58,7 @@ fn model(name: &str, params: &Value) -> Box<dyn SurfaceModel> {
     }
 }
 
-fn make<T: Strategy + SurfaceModel + 'static>(given: &Value) -> Box<dyn SurfaceModel> {
+fn make<T: Strategy>(given: &Value) -> Arc<dyn SurfaceModel> {
     let mut params = Params::new();
     for param in T::PARAMS {
         match param.default {
@@ -67,7 +70,7 @@ fn make<T: Strategy + SurfaceModel + 'static>(given: &Value) -> Box<dyn SurfaceM
     for (name, value) in given.as_object().unwrap() {
         params.set(name, param_value(value));
     }
-    Box::new(T::new(&params).unwrap())
+    models::model::<T>(&params)
 }
 
 fn param_value(value: &Value) -> ParamValue {

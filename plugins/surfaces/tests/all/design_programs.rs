@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+use crate::models::model;
 use turnpath_core::{
     GradientSeries, Gradients, ParamValue, Params, Strategy, StrategyError, Surface, SurfaceModel,
 };
@@ -20,7 +21,7 @@ fn refusal<T: std::fmt::Debug>(made: Result<T, StrategyError>) -> String {
     made.unwrap_err().to_string()
 }
 
-fn has_value(surface: &impl SurfaceModel, x: f64, y: f64) -> bool {
+fn has_value(surface: &dyn SurfaceModel, x: f64, y: f64) -> bool {
     let (mut z, mut zx, mut zy) = ([0.0], [0.0], [0.0]);
     let out = Gradients {
         z: &mut z,
@@ -120,7 +121,7 @@ fn aspheric_terms_stand_under_their_powers() {
 fn an_odd_asphere_has_finite_series_at_its_axis() {
     let params = Params::new().with("radius", 10.0).with("conic", 0.0);
     let params = with_coefficients(params, &[&[1.0, 0.1], &[3.0, 0.5]]);
-    let odd = OddAsphere::new(&params).unwrap();
+    let odd = model::<OddAsphere>(&params);
     for start in [0.0, 1e-300, 1e-24, 1e-15] {
         let (x, y) = ([[start, 5.0, 1.0, -2.0, 3.0]], [[0.0, 3.0, -1.0, 2.0, 1.0]]);
         let (mut z, mut zx, mut zy) = ([[f64::NAN; 5]], [[f64::NAN; 5]], [[f64::NAN; 5]]);
@@ -136,45 +137,45 @@ fn an_odd_asphere_has_finite_series_at_its_axis() {
             "{start}: {all:?}"
         );
     }
-    let sphere = Conic::new(&Params::new().with("radius", 10.0).with("conic", 0.0)).unwrap();
+    let sphere = model::<Conic>(&Params::new().with("radius", 10.0).with("conic", 0.0));
     let of = |surface: &dyn SurfaceModel| {
         let mut z = [[0.0; 5]];
         let (x, y) = ([[0.0, 1.0, 0.0, 0.0, 0.0]], [[0.0; 5]]);
         surface.height_series(&x, &y, &mut z).unwrap();
         z[0]
     };
-    assert_eq!(of(&odd), of(&sphere));
+    assert_eq!(of(&*odd), of(&*sphere));
 }
 
 #[test]
 fn beyond_a_base_there_is_no_height_and_beyond_an_aperture_the_formula_goes_on() {
     let base = Params::new().with("radius", 5.0).with("conic", 0.0);
     let terms = with_coefficients(base, &[&[4.0, 1e-3]]);
-    let even = EvenAsphere::new(&terms).unwrap();
-    let odd = OddAsphere::new(&terms).unwrap();
-    assert!(has_value(&even, 3.0, 3.9) && !has_value(&even, 3.1, 4.0));
-    assert!(has_value(&odd, 3.0, 3.9) && !has_value(&odd, 3.1, 4.0));
+    let even = model::<EvenAsphere>(&terms);
+    let odd = model::<OddAsphere>(&terms);
+    assert!(has_value(&*even, 3.0, 3.9) && !has_value(&*even, 3.1, 4.0));
+    assert!(has_value(&*odd, 3.0, 3.9) && !has_value(&*odd, 3.1, 4.0));
     let params = Params::new()
         .with("radius_x", 5.0)
         .with("radius_y", 9.0)
         .with("conic_x", 0.0)
         .with("conic_y", 0.0);
-    let biconic = Biconic::new(&params).unwrap();
-    assert!(has_value(&biconic, 4.9, 0.5) && has_value(&biconic, 0.5, 8.9));
-    assert!(!has_value(&biconic, 5.1, 0.0) && !has_value(&biconic, 4.0, 6.0));
+    let biconic = model::<Biconic>(&params);
+    assert!(has_value(&*biconic, 4.9, 0.5) && has_value(&*biconic, 0.5, 8.9));
+    assert!(!has_value(&*biconic, 5.1, 0.0) && !has_value(&*biconic, 4.0, 6.0));
     let params = Params::new()
         .with("radius_rotation", 6.0)
         .with("radius", 4.0)
         .with("conic", 0.0);
-    let toroid = ToroidYz::new(&params).unwrap();
-    assert!(has_value(&toroid, 5.9, 0.0) && !has_value(&toroid, 6.1, 0.0));
-    assert!(has_value(&toroid, 0.0, 3.9) && !has_value(&toroid, 0.0, 4.1));
+    let toroid = model::<ToroidYz>(&params);
+    assert!(has_value(&*toroid, 5.9, 0.0) && !has_value(&*toroid, 6.1, 0.0));
+    assert!(has_value(&*toroid, 0.0, 3.9) && !has_value(&*toroid, 0.0, 4.1));
     // A curve that has reached the axis of rotation.
     let params = Params::new()
         .with("radius_rotation", 2.0)
         .with("conic", 0.0);
-    let steep = ToroidYz::new(&with_coefficients(params, &[&[2.0, 1.0]])).unwrap();
-    assert!(has_value(&steep, 0.0, 1.4) && !has_value(&steep, 0.0, 1.5));
+    let steep = model::<ToroidYz>(&with_coefficients(params, &[&[2.0, 1.0]]));
+    assert!(has_value(&*steep, 0.0, 1.4) && !has_value(&*steep, 0.0, 1.5));
     // Far to one side the normal of the segment meets the other sheet of its hyperboloid alone; where
     // the segment lies flatter, it meets both.
     let hyperboloid = |conic| {
@@ -182,21 +183,27 @@ fn beyond_a_base_there_is_no_height_and_beyond_an_aperture_the_formula_goes_on()
             .with("vertex_radius", 10.0)
             .with("conic", conic)
             .with("off_axis_distance", 20.0);
-        OffAxisConic::new(&params).unwrap()
+        model::<OffAxisConic>(&params)
     };
     assert!(
-        has_value(&hyperboloid(-1.2), 20.0, 5.0) && !has_value(&hyperboloid(-1.2), -500.0, 0.0)
+        has_value(&*hyperboloid(-1.2), 20.0, 5.0) && !has_value(&*hyperboloid(-1.2), -500.0, 0.0)
     );
-    assert!(has_value(&hyperboloid(-4.0), 20.0, 5.0) && has_value(&hyperboloid(-4.0), -500.0, 0.0));
+    assert!(
+        has_value(&*hyperboloid(-4.0), 20.0, 5.0) && has_value(&*hyperboloid(-4.0), -500.0, 0.0)
+    );
 }
 
 fn lenses(layout: &str, radius: f64) -> Result<LensletArray, StrategyError> {
+    LensletArray::new(&lattice(layout, radius))
+}
+
+fn lattice(layout: &str, radius: f64) -> Params {
     let mut params = Params::new()
         .with("pitch", 1.0)
         .with("radius", radius)
         .with("conic", 0.0);
     params.set("layout", ParamValue::Text(layout.to_owned()));
-    LensletArray::new(&params)
+    params
 }
 
 /// The array has its lenses where its lattice points are, near and far.
@@ -226,10 +233,8 @@ fn lenses_have_their_vertices_at_the_points_of_the_lattice() {
 /// On both sides of a seam the height is the same, and the slope is turned round.
 #[test]
 fn heights_go_through_a_seam_and_slopes_jump_there() {
-    for surface in [
-        lenses("square", -3.0).unwrap(),
-        lenses("hexagonal", -3.0).unwrap(),
-    ] {
+    for layout in ["square", "hexagonal"] {
+        let surface = model::<LensletArray>(&lattice(layout, -3.0));
         let near = 1e-9;
         let (x, y) = ([0.5 - near, 0.5 + near], [0.05; 2]);
         let (mut z, mut zx, mut zy) = ([0.0; 2], [0.0; 2], [0.0; 2]);

@@ -3,3 +3,5 @@
 mod against_reference;
 mod design_programs;
 mod geometry_and_parameters;
+#[path = "../../../../tests/support/models.rs"]
+mod models;

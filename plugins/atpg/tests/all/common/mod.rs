@@ -8,6 +8,7 @@ mod planned;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use crate::models::model;
 pub use planned::{Case, ast_5};
 use turnpath_atpg::AtpgFeed;
 use turnpath_core::{
@@ -72,8 +73,8 @@ pub fn words(pairs: &[(&str, &str)]) -> Params {
 
 /// AST-50: 4.8 µm over 50 mm, R = 1.04 mm, 10 nm.
 pub fn ast_50(compensator: impl Compensator + 'static) -> Case {
-    let surface = Astigmatic::new(&Params::new().with("k", 3.84e-6)).unwrap();
-    Case::new(Arc::new(surface), Arc::new(compensator), 50.0, 1.04, 10.0)
+    let surface = model::<Astigmatic>(&Params::new().with("k", 3.84e-6));
+    Case::new(surface, Arc::new(compensator), 50.0, 1.04, 10.0)
 }
 
 /// OAP-213: vertex radius and distance 915 mm, 213 mm, R = 1.04 mm, 10 nm.
@@ -81,8 +82,8 @@ pub fn oap_213(compensator: impl Compensator + 'static) -> Case {
     let params = Params::new()
         .with("vertex_radius", 915.0)
         .with("off_axis_distance", 915.0);
-    let surface = OffAxisParaboloid::new(&params).unwrap();
-    Case::new(Arc::new(surface), Arc::new(compensator), 213.0, 1.04, 10.0)
+    let surface = model::<OffAxisParaboloid>(&params);
+    Case::new(surface, Arc::new(compensator), 213.0, 1.04, 10.0)
 }
 
 /// The law's ρ and dρ/dN after `n` revolutions, from its own pieces.
