@@ -1,5 +1,5 @@
 //! Nose centres by opencamlib's drop-cutter (`tests/reference/dropcutter.py`), for whichever test
-//! includes this file with `#[path]`.
+//! includes this file with `#[path]`, and `models.rs` as the module `models`.
 #![allow(dead_code, reason = "each test uses what it needs")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 

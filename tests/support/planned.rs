@@ -1,4 +1,5 @@
-//! Parts of the papers, and laws of the feed strategy on them.
+//! Parts of the papers, and laws of the feed strategy on them. The program that includes this file
+//! has `models.rs` as the module `models`.
 #![allow(dead_code, reason = "every test program uses its own part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 

@@ -1,4 +1,5 @@
-//! Parts for tests on random input.
+//! Parts for tests on random input. The program that includes this file
+//! has `models.rs` as the module `models`.
 #![allow(dead_code, reason = "every test program uses its own part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 

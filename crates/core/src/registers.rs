@@ -2,7 +2,8 @@
 //! has.
 //!
 //! The compiler turns the same loop into other instructions, but neither the operations nor their
-//! order change, and no two of them are fused. So the bytes are the same in all registers.
+//! order change, and no two of them are fused. A loop over lanes does for each lane what the loop one
+//! by one does. So the bytes are the same in all registers.
 //! `TURNPATH_LANES=base`, `avx2` or `avx512` in the environment asks for no wider ones than these.
 
 pub use pulp::NullaryFnOnce as Loop;
@@ -17,13 +18,14 @@ pub fn in_widest<L: Loop>(one: L) -> L::Output {
 
 /// A loop over [lanes](crate::Lanes) that can go without them.
 pub trait LaneLoop: Loop {
-    /// The same results, with the same bits, from one number after the other.
+    /// The same results, with the same bits, from one number after the other. It must be
+    /// `#[inline(always)]`, as the loop over lanes may call it for what does not fill the lanes.
     fn one_by_one(self) -> Self::Output;
 }
 
-/// Runs a loop over lanes in the widest registers. An x86 CPU with 128 bits alone takes one number
-/// after the other: lanes would not make it much faster, and the compiler spends as long on them as on
-/// the wide registers together.
+/// Runs a loop over lanes in the widest registers; its `call` must be `#[inline(always)]`. An x86 CPU
+/// with 128 bits alone takes one number after the other. Such CPUs are rare, and the compiler spends
+/// a quarter of its time for a surface on lanes for them.
 pub fn lanes_in_widest<L: LaneLoop>(one: L) -> L::Output {
     #[cfg(target_arch = "x86_64")]
     return x86::lanes_in_widest(one);

@@ -243,7 +243,10 @@ impl Catalogue {
     /// When the copy of a library cannot be read.
     pub fn hash_all(&self) -> Result<(), HashError> {
         let plugins = self.plugins.par_iter();
-        plugins.try_for_each(|plugin| plugin.sha256().map(drop))
+        let hashed = plugins.map(|plugin| plugin.sha256().map(drop));
+        // The first error in the order of the plugins, whatever the threads.
+        let hashed: Vec<Result<(), HashError>> = hashed.collect();
+        hashed.into_iter().collect()
     }
 
     /// The plugins in the order in which they were added.

@@ -15,14 +15,15 @@ use crate::{LoadError, Refusal, SourceHash, image};
 /// Largest library. A plugin with all its debug information has a tenth of that; the limit is on the
 /// memory that a file can take.
 const MOST_BYTES: u64 = 1 << 28;
-/// How many libraries of a folder have copies that stay open, so that they can be hashed later. Libraries of
-/// larger folders are hashed as they are read: systems allow a program some hundreds of open files.
+/// How many libraries of one folder have copies that stay open, so that they can be hashed later.
+/// Libraries of larger folders are hashed as they are read: systems allow a program some hundreds of
+/// open files.
 const MOST_OPEN: usize = 64;
 /// The extensions of libraries. A plugin folder may hold other files too.
 const EXTENSIONS: [&str; 3] = ["so", "dylib", "dll"];
 
-/// A library's file, as it was when it was read. The file is not read again: a private copy of its bytes is
-/// hashed and loaded.
+/// A library's file, as it was when it was read. The file is not read again: a private copy of its
+/// bytes is loaded, and hashed if nobody hashed the bytes before.
 pub struct LibraryFile {
     path: PathBuf,
     checked: Result<CheckedCopy, Refusal>,
@@ -47,8 +48,8 @@ pub struct Loadable {
 }
 
 impl Loadable {
-    /// Loads the library, as a [`Catalogue`](crate::Catalogue) of another process will. Nothing comes of a
-    /// library that the loader or the boundary refuses, or whose symbol is not that of an entry.
+    /// Loads the library, as a [`Catalogue`](crate::Catalogue) of another process will. Nothing comes
+    /// of a library that the loader or the boundary refuses, or whose symbol is not that of an entry.
     pub fn try_load(&self) {
         if let Ok(entry) = native::load(&self.file, &self.symbol)
             && let Ok(None) = entry.offers_if_not_newer()
@@ -61,7 +62,8 @@ impl Loadable {
 impl fmt::Debug for LibraryFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut shown = f.debug_struct("LibraryFile");
-        shown.field("path", &self.path).finish_non_exhaustive()
+        shown.field("path", &self.path).field("hash", &self.hash);
+        shown.finish_non_exhaustive()
     }
 }
 
@@ -92,7 +94,8 @@ impl LibraryFile {
         read.into_iter().collect()
     }
 
-    /// Reads a library through a buffer. Fresh memory for each library would take longer than the reading.
+    /// Reads a library through a buffer. Fresh memory for each library would take longer than the
+    /// reading.
     fn read_with(buffer: &mut Vec<u8>, file: &Path, hash_now: bool) -> Result<Self, LoadError> {
         let path = read_bytes(buffer, file)?;
         let symbol = match image::entry_symbol(buffer, &stem(&path)) {
@@ -137,12 +140,13 @@ impl LibraryFile {
         Ok(self.hash.hex()?)
     }
 
-    /// The hash, which is calculated when it is asked for.
+    /// The hash, which may still have to be calculated.
     pub(crate) fn hash(&self) -> &SourceHash {
         &self.hash
     }
 
-    /// What the loader will get, so that another process can try it; `None` if the library is refused before.
+    /// What the loader will get, so that another process can try it; `None` if the library is refused
+    /// before.
     pub fn loadable(&self) -> Option<Loadable> {
         let CheckedCopy { symbol, copy } = self.checked.as_ref().ok()?;
         Some(Loadable {

@@ -25,7 +25,7 @@ pub struct Library {
     pub crate_name: String,
     /// That crate's version.
     pub version: String,
-    /// The hash of the bytes that were loaded.
+    /// The hash of the bytes that were loaded, from the first catalogue that loaded them.
     pub hash: SourceHash,
     /// The strategies of the plugin.
     pub offers: Vec<Offer>,

@@ -11,21 +11,21 @@ use turnpath_plugin::loading::{self, OpenError, SYMBOL_PREFIX};
 #[derive(Debug, Clone, Copy)]
 pub struct Entry(*const u8);
 
-// SAFETY: it is an address, which stays valid. Only the opening reads through it, and what the boundary writes
-// there goes through an atomic pointer or a lock.
+// SAFETY: it is an address, which stays valid. Only the opening reads through it, and what the
+// boundary writes there goes through an atomic pointer or a lock.
 unsafe impl Send for Entry {}
 // SAFETY: as above.
 unsafe impl Sync for Entry {}
 
 impl Entry {
-    /// The strategies of the plugin, after a comparison of layouts, if the library has nothing that this
-    /// program lacks, and fits it; else `None`. Entries may be opened so side by side.
+    /// The strategies of the plugin, after a comparison of layouts, if the library has nothing that
+    /// this program lacks, and fits it; else `None`. Entries may be opened so side by side.
     ///
     /// # Errors
     /// When the boundary refuses the library.
     pub fn offers_if_not_newer(self) -> Result<Option<Vec<Offer>>, OpenError> {
-        // SAFETY: `load` took the address from a symbol with the boundary's prefix, in a library that stays
-        // loaded.
+        // SAFETY: `load` took the address from a symbol with the boundary's prefix, in a library that
+        // stays loaded.
         unsafe { loading::open_if_not_newer(self.0) }
     }
 
@@ -46,16 +46,18 @@ impl Entry {
 /// texts from it may be in use anywhere, and threads that it started may run.
 ///
 /// # Errors
-/// The message of the system's loader, when it refuses the library. Also when the symbol does not begin with
-/// [`SYMBOL_PREFIX`].
+/// The message of the system's loader, when it refuses the library. Also when the symbol does not
+/// begin with [`SYMBOL_PREFIX`].
 pub fn load(file: &Path, symbol: &str) -> Result<Entry, String> {
     if !symbol.starts_with(SYMBOL_PREFIX) {
         return Err(format!("`{symbol}` is not the entry of a plugin"));
     }
-    // SAFETY: the library's initialisers run. A user who trusts a plugin vouches that they behave. That the file
-    // is complete and for this machine was checked when its bytes were read, and a copy of these is loaded.
+    // SAFETY: the library's initialisers run. A user who trusts a plugin vouches that they behave. The
+    // file is a copy of bytes that were checked when they were read: complete, and for this machine. A
+    // process that tries a library gets the copy's name from the one that checked it.
     let library = unsafe { open_library(file) }.map_err(reason)?;
-    // SAFETY: symbols with the boundary's prefix are statics, so the address may be taken as a pointer of any type.
+    // SAFETY: symbols with the boundary's prefix are statics, so the address may be taken as a pointer
+    // of any type.
     let entry = unsafe { library.get::<*const u8>(symbol) }.map(|symbol| *symbol);
     std::mem::forget(library);
     entry.map(Entry).map_err(reason)

@@ -9,7 +9,8 @@ use std::sync::{Arc, OnceLock};
 use crate::hash::{sha256_hex, sha256_hex_of_reader};
 
 /// The SHA-256 of the bytes that a plugin comes from, in lower-case hexadecimal. That of a library is
-/// calculated when it is first asked for: a run loads all libraries of a folder, and uses few of them.
+/// calculated when it is first asked for: a run loads all libraries of a folder, and uses few of
+/// them. Libraries of large folders are hashed as they are read.
 #[derive(Clone)]
 pub struct SourceHash(Arc<Source>);
 
@@ -33,7 +34,7 @@ enum Source {
 
 /// The copy of a library cannot be read, so that its hash cannot be calculated.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot read the private copy of {}", path.display())]
+#[error("cannot read {}", path.display())]
 pub struct HashError {
     /// The library's own file.
     pub path: PathBuf,
@@ -83,7 +84,7 @@ impl SourceHash {
                 let hex = hex.get_or_init(|| of_whole_file(copy)).as_deref();
                 hex.map_err(|error| HashError {
                     path: path.clone(),
-                    source: io::Error::new(error.kind(), error.to_string()),
+                    source: io::Error::new(error.kind(), format!("its private copy: {error}")),
                 })
             }
         }

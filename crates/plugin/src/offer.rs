@@ -163,8 +163,9 @@ pub fn linked() -> Vec<Offer> {
 /// If the entry does not belong to this version of the boundary.
 ///
 /// # Safety
-/// `entry` is the address of a symbol whose name begins with [`SYMBOL_PREFIX`](crate::head::SYMBOL_PREFIX),
-/// in a library that stays loaded for the rest of the program.
+/// `entry` is the address of a symbol whose name begins with
+/// [`SYMBOL_PREFIX`](crate::head::SYMBOL_PREFIX), in a library that stays loaded for the rest of the
+/// program.
 #[allow(unsafe_code)] // the boundary: the caller guarantees the properties of the library
 pub unsafe fn open_if_not_newer(
     entry: *const u8,
@@ -179,8 +180,8 @@ pub unsafe fn open_if_not_newer(
 /// The strategies of a newer library. One such library is opened after the other.
 ///
 /// # Errors
-/// If the entry does not belong to this version of the boundary, or does not fit this program or a newer
-/// library that was opened before.
+/// If the entry does not belong to this version of the boundary, or does not fit this program or a
+/// newer library that was opened before.
 ///
 /// # Safety
 /// That of [`open_if_not_newer`].
@@ -198,4 +199,21 @@ fn without_panics<T>(
     open: impl FnOnce() -> std::result::Result<T, OpenError>,
 ) -> std::result::Result<T, OpenError> {
     guarded(|| Ok(open())).unwrap_or(Err(OpenError::Damaged))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_of_the_comparison_is_a_damaged_library_and_an_error_stays_as_it_is() {
+        let damaged = without_panics(|| -> std::result::Result<(), OpenError> {
+            panic!("a description that refers to what is not there")
+        });
+        assert!(matches!(damaged, Err(OpenError::Damaged)), "{damaged:?}");
+        let layout = without_panics(|| -> std::result::Result<(), OpenError> {
+            Err(OpenError::Layout("differs".to_owned()))
+        });
+        assert!(matches!(layout, Err(OpenError::Layout(text)) if text == "differs"));
+    }
 }

@@ -78,7 +78,7 @@ impl Registration {
         all
     }
 
-    /// The registration of this name that is linked in here.
+    /// The registration of this name that is linked in here. Tests make models with it.
     pub fn named(slot: Slot, name: &str) -> Option<Self> {
         Self::all()
             .into_iter()

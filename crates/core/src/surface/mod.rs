@@ -270,6 +270,67 @@ mod tests {
         }
     }
 
+    /// The same without wide registers.
+    struct Narrow;
+
+    impl Surface for Narrow {
+        const IN_WIDE_REGISTERS: bool = false;
+
+        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
+            Mixture.sag(x, y)
+        }
+    }
+
+    /// Heights and slopes at points, one column each.
+    fn gradients(surface: &dyn SurfaceModel, x: &[f64], y: &[f64]) -> [Vec<f64>; 3] {
+        let mut all = [(); 3].map(|()| vec![f64::NAN; x.len()]);
+        let [z, zx, zy] = &mut all;
+        surface.gradient(x, y, Gradients { z, zx, zy }).unwrap();
+        all
+    }
+
+    #[test]
+    fn a_formula_without_wide_registers_has_the_bits_of_one_with_them() {
+        let x: Vec<f64> = (0..19).map(|i| 0.13 * f64::from(i) - 1.0).collect();
+        let y: Vec<f64> = x.iter().map(|x| 0.7 - x).collect();
+        let bits = |columns: &[Vec<f64>]| -> Vec<u64> {
+            columns.iter().flatten().map(|z| z.to_bits()).collect()
+        };
+        let wide = gradients(&Mixture, &x, &y);
+        assert_eq!(bits(&gradients(&Narrow, &x, &y)), bits(&wide));
+        for surface in [&Mixture as &dyn SurfaceModel, &Narrow] {
+            let mut z = vec![f64::NAN; x.len()];
+            surface.heights(&x, &y, &mut z).unwrap();
+            assert_eq!(bits(&[z]), bits(&wide[..1]));
+        }
+        let (along_x, along_y) = curves(29);
+        let wide = all_orders(&Mixture, &along_x, &along_y);
+        for (one, other) in all_orders(&Narrow, &along_x, &along_y).iter().zip(&wide) {
+            same(one, other, ORDER);
+        }
+        fewer_orders_have_the_bits_of_all_orders(&Narrow);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn points_have_the_bits_of_each_alone_in_all_registers() {
+        let x: Vec<f64> = (0..19).map(|i| 0.13 * f64::from(i) - 1.0).collect();
+        let y: Vec<f64> = x.iter().map(|x| 0.7 - x).collect();
+        let alone = gradients(&Narrow, &x, &y);
+        crate::registers::each_width(|registers| {
+            let [mut heights, mut z, mut zx, mut zy] = [(); 4].map(|()| vec![f64::NAN; x.len()]);
+            registers.run_lanes(Heights(&Mixture, &x, &y, &mut heights));
+            let out = Gradients {
+                z: &mut z,
+                zx: &mut zx,
+                zy: &mut zy,
+            };
+            registers.run_lanes(Slopes(&Mixture, &x, &y, out));
+            assert_eq!(heights, alone[0], "{registers:?}");
+            assert_eq!([z, zx, zy], alone, "{registers:?}");
+        });
+    }
+
     fn curves(count: usize) -> (Vec<Series>, Vec<Series>) {
         let series = |i: usize| {
             let t = i as f64;

@@ -5,9 +5,7 @@ use super::formula::Surface;
 use crate::registers::{LaneLoop, Loop};
 use crate::{Dual, Lanes, Scalar};
 
-/// How many points go through a formula together. The number is large enough to fill the vector
-/// registers and to hide latencies. On x86-64 with SSE2, 8 was the fastest of 1, 2, 4 and 8 for
-/// values and slopes.
+/// How many points go through a formula together: as many as the widest registers hold.
 const WIDTH: usize = 8;
 
 /// The loop of [`SurfaceModel::heights`](super::SurfaceModel::heights).

@@ -20,6 +20,8 @@ struct Plane {
 }
 
 impl Surface for Plane {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, _: S) -> S {
         assert!(self.height >= 0.0, "no height below zero");
         x * self.slope + self.height

@@ -146,6 +146,7 @@ impl CheckedEntry {
     }
 }
 
+/// The root of a library, with the strategies of the crate of this name.
 fn own_strategies((crate_name, root): (&str, RootRef)) -> Result<Opened, OpenError> {
     let entries = entries(&root.catalogue()(), |name| name == crate_name);
     let entries = entries.map_err(|error| match error {

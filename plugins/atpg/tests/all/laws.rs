@@ -126,7 +126,7 @@ fn on_arrays_the_smooth_law_costs_little_against_the_fastest() {
     ] {
         let case = Case::new(surface, Arc::new(ZDirection), 10.0, nose, 100.0);
         // Turned by half a turn, an array is itself.
-        let fastest = case.fewest_revolutions(1000, 720, 2);
+        let fastest = case.fewest_revolutions(500, 720, 2);
         let found = case.plan_law("held", "smooth").unwrap().end();
         let cost = found / fastest - 1.0;
         assert!((0.0..allowed).contains(&cost), "{name}: {found}, {cost:.4}");

@@ -5,4 +5,6 @@
 mod beyond_the_aperture;
 mod common;
 mod conventions;
+#[path = "../../../../tests/support/models.rs"]
+mod models;
 mod parameters;

@@ -37,6 +37,8 @@ pub fn with_fixture(package: &str) -> Catalogue {
 pub struct Saddle;
 
 impl Surface for Saddle {
+    const IN_WIDE_REGISTERS: bool = false;
+
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {
         x * y * 0.01
     }
