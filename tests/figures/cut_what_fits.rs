@@ -123,7 +123,7 @@ fn closing(theta: f64, radius: f64, reach: f64, rim: f64, step: f64) -> Vec<(f64
 
 /// Height and volume that the nose cannot reach on the lattice of radius 1 mm, by brute force. Turned
 /// by 90 deg the lattice is itself, so sections of that angle are enough, from the axis outward. Steps of
-/// X miss the lowest place over a seam by a part of the step: the volume is extrapolated from two steps.
+/// X miss the lowest place over a seam by a part of the step, so the volume is extrapolated from two.
 fn brute_force() -> (f64, f64) {
     /// Sections of 90 deg.
     const SECTIONS: usize = 45;

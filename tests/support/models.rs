@@ -1,7 +1,7 @@
-//! Surface models as the crates of the plugins compiled them.
+//! Surface models from the crates that compiled them.
 //!
-//! A test that makes a model of a type itself compiles the loops of its formula once more, for each
-//! width of registers.
+//! Where a test makes a model by `Conic::new`, the compiler makes the loops of the formula once more
+//! for each width of registers.
 #![allow(dead_code, reason = "every test program uses its own part")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 

@@ -24,8 +24,8 @@ pub trait LaneLoop: Loop {
 }
 
 /// Runs a loop over lanes in the widest registers; its `call` must be `#[inline(always)]`. An x86 CPU
-/// with 128 bits alone takes one number after the other. Such CPUs are rare, and the compiler spends
-/// a quarter of its time for a surface on lanes for them.
+/// with 128 bits alone takes one number after the other. Such CPUs are rare, and lanes for them would
+/// take a quarter of the time in which a surface compiles.
 pub fn lanes_in_widest<L: LaneLoop>(one: L) -> L::Output {
     #[cfg(target_arch = "x86_64")]
     return x86::lanes_in_widest(one);

@@ -23,7 +23,7 @@ const MOST_OPEN: usize = 64;
 const EXTENSIONS: [&str; 3] = ["so", "dylib", "dll"];
 
 /// A library's file, as it was when it was read. The file is not read again: a private copy of its
-/// bytes is loaded, and hashed if nobody hashed the bytes before.
+/// bytes is loaded. The copy is hashed too, unless the bytes were hashed as they were read.
 pub struct LibraryFile {
     path: PathBuf,
     checked: Result<CheckedCopy, Refusal>,

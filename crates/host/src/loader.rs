@@ -1,5 +1,5 @@
-//! Loads libraries: their code one after the other. Then their layouts are compared, side by side as far
-//! as the libraries are not newer than this program.
+//! Loads libraries. Their code is loaded one after the other. Then layouts are compared: those of
+//! libraries that are not newer than this program side by side, and all others in order.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};

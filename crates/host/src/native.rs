@@ -19,7 +19,8 @@ unsafe impl Sync for Entry {}
 
 impl Entry {
     /// The strategies of the plugin, after a comparison of layouts, if the library has nothing that
-    /// this program lacks, and fits it; else `None`. Entries may be opened so side by side.
+    /// this program lacks, and fits it; else `None`. Several entries may be opened in this way at the
+    /// same time.
     ///
     /// # Errors
     /// When the boundary refuses the library.

@@ -157,7 +157,7 @@ pub fn linked() -> Vec<Offer> {
 }
 
 /// The strategies of the library that exports `entry`, if it has nothing that this program lacks, and
-/// fits it; else `None`. Libraries may be opened so side by side.
+/// fits it; else `None`. Several libraries may be opened in this way at the same time.
 ///
 /// # Errors
 /// If the entry does not belong to this version of the boundary.

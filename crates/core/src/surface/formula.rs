@@ -13,9 +13,9 @@ use crate::Scalar;
 /// formula has no value it gives NaN.
 pub trait Surface: Send + Sync {
     /// Whether the compiler makes the loops over the formula once more for each width of [vector
-    /// registers](crate::registers). Without them, and with the same bits, a formula compiles several
-    /// times as fast: for those that few points go through, as in tests. The constants below count
-    /// only with them.
+    /// registers](crate::registers). A formula through which few points go, as in a test, says `false`.
+    /// Then it compiles several times as fast, and its bits are the same. The constants below count
+    /// only where this one is true.
     const IN_WIDE_REGISTERS: bool = true;
 
     /// Whether the compiler puts series of many curves side by side in vector registers. It does so, and

@@ -270,7 +270,7 @@ mod tests {
         }
     }
 
-    /// The same without wide registers.
+    /// [`Mixture`] without wide registers.
     struct Narrow;
 
     impl Surface for Narrow {

@@ -60,16 +60,16 @@ pub fn own() -> (RootRef, Vec<CatalogueEntry>) {
 }
 
 /// What a library offers: its root, and the strategies of its own crate.
-pub type Opened = (RootRef, Vec<CatalogueEntry>);
+pub type LibraryContents = (RootRef, Vec<CatalogueEntry>);
 
 /// Opens the entry of a library that has nothing that this program lacks, and fits it. `None` for any
-/// other. Entries may be opened so side by side.
+/// other. Several entries may be opened in this way at the same time.
 ///
 /// # Safety
 /// `entry` is the address of a symbol whose name begins with
 /// [`SYMBOL_PREFIX`](crate::head::SYMBOL_PREFIX), in a library that stays loaded for the rest of the
 /// program.
-pub unsafe fn open_if_not_newer(entry: *const u8) -> Result<Option<Opened>, OpenError> {
+pub unsafe fn open_if_not_newer(entry: *const u8) -> Result<Option<LibraryContents>, OpenError> {
     // SAFETY: the caller makes the same promise.
     let root = unsafe { root_if_not_newer::<RootRef>(entry) }?;
     root.map(own_strategies).transpose()
@@ -80,7 +80,7 @@ pub unsafe fn open_if_not_newer(entry: *const u8) -> Result<Option<Opened>, Open
 ///
 /// # Safety
 /// That of [`open_if_not_newer`].
-pub unsafe fn open_newer(entry: *const u8) -> Result<Opened, OpenError> {
+pub unsafe fn open_newer(entry: *const u8) -> Result<LibraryContents, OpenError> {
     // SAFETY: the caller makes the same promise.
     let entry = unsafe { checked(entry) }?;
     layout::check_newer::<RootRef>(entry.layout).map_err(OpenError::Layout)?;
@@ -147,7 +147,7 @@ impl CheckedEntry {
 }
 
 /// The root of a library, with the strategies of the crate of this name.
-fn own_strategies((crate_name, root): (&str, RootRef)) -> Result<Opened, OpenError> {
+fn own_strategies((crate_name, root): (&str, RootRef)) -> Result<LibraryContents, OpenError> {
     let entries = entries(&root.catalogue()(), |name| name == crate_name);
     let entries = entries.map_err(|error| match error {
         CatalogueError::Damaged => OpenError::NotAPlugin,

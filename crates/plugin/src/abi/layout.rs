@@ -24,8 +24,8 @@ pub fn is_not_newer<T: StableAbi>(library: &'static TypeLayout) -> bool {
 }
 
 /// Checks that a newer library fits the layout of `T` here, and the newer libraries that were compared
-/// before it. Parts of one that was refused count among these, too: abi_stable does not forget what it
-/// compared before it found a difference.
+/// before it. Parts of a refused library count too, since abi_stable keeps what it compared before it
+/// found a difference.
 ///
 /// # Errors
 /// If this program is not the library with fewer functions. The text is that of the shorter of both
