@@ -8,7 +8,7 @@ use turnpath_plugin::prelude::{GradientSeries, ORDER, Series};
 use turnpath_plugin::registers::Loop;
 
 use crate::basis::{NO_WEIGHTS, SPLINES, Weights, derivative};
-use crate::spline::{NO_PATCH, Place, Spline, combine, dot};
+use crate::spline::{NO_PATCH, Spline, combine, dot};
 
 /// Curves of a group. With more of them, their numbers leave the cache of the first level.
 const GROUP: usize = 8;
@@ -111,30 +111,16 @@ impl<const TO: usize> Loop for SlopesAlong<'_, TO> {
 /// The terms of heights and of slopes where curves begin, through the order `TO`, and zeros.
 #[inline(always)]
 fn terms<const TO: usize>(spline: &Spline, x: &[Series], y: &[Series]) -> Terms {
-    let mut places = [Place::default(); GROUP];
     let mut patch = NO_PATCH;
-    let [mut along_x, mut along_y, mut lines] = [[[NO_WEIGHTS; SPLINES]; GROUP]; 3];
-    for ((place, x), y) in places.iter_mut().zip(x).zip(y) {
-        *place = spline.place(x[0], y[0]);
-    }
-    let places = &places[..x.len().min(GROUP)];
-    for (along_x, place) in along_x.iter_mut().zip(places) {
-        *along_x = orders::<TO>(place.s);
-    }
-    for (along_y, place) in along_y.iter_mut().zip(places) {
-        *along_y = orders::<TO>(place.t);
-    }
-    for ((lines, along_y), place) in lines.iter_mut().zip(&along_y).zip(places) {
-        let at = spline.lines(place, &mut patch);
-        for (line, weights) in lines.iter_mut().zip(along_y).take(TO + 2) {
-            *line = combine(&at, weights);
-        }
-    }
     let mut terms = [[[0.0; GROUP]; SPLINES]; SPLINES];
-    for i in 0..places.len() {
-        for (b, (terms, line)) in terms.iter_mut().zip(&lines[i]).enumerate().take(TO + 2) {
-            for (term, weights) in terms.iter_mut().zip(&along_x[i]).take(TO + 2 - b) {
-                term[i] = dot(line, weights);
+    for (i, (x, y)) in x.iter().zip(y).enumerate().take(GROUP) {
+        let place = spline.place(x[0], y[0]);
+        let (along_x, along_y) = (orders::<TO>(place.s), orders::<TO>(place.t));
+        let lines = spline.lines(&place, &mut patch);
+        for (b, (terms, of_y)) in terms.iter_mut().zip(&along_y).enumerate().take(TO + 2) {
+            let line = combine(&lines, of_y);
+            for (term, of_x) in terms.iter_mut().zip(&along_x).take(TO + 2 - b) {
+                term[i] = dot(&line, of_x);
             }
         }
     }

@@ -80,18 +80,21 @@ impl FeedTable {
         } else {
             (inner, outer)
         };
+        let step = (to - from) / FEWEST_CELLS as f64;
+        let mut borders: Vec<f64> = (0..FEWEST_CELLS).map(|i| from + i as f64 * step).collect();
+        borders.push(to);
         let mut table = Self {
             from,
-            step: to - from,
-            feed: feeds_at(&[from, to])?,
+            step,
+            feed: feeds_at(&borders)?,
             floor: Vec::new(),
             even,
         };
-        while table.cells() < FEWEST_CELLS {
-            table.halve(feeds_at)?;
-        }
         table.set_floors();
-        while table.cells() < most && (table.cost() > TABLE_COST || table.lower_floors(feeds_at)?) {
+        while table.cells() < most {
+            if table.cost() <= TABLE_COST && !table.lower_floors(feeds_at)? {
+                return Ok(table);
+            }
             table.halve(feeds_at)?;
             table.set_floors();
         }
