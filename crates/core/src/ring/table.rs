@@ -1,5 +1,7 @@
 //! F(ρ), the feed that keeps the residual at every angle, tabulated against the radius.
 
+use std::iter::once;
+
 use super::{Measure, least_over_angles_at};
 use crate::{Locus, Misfit, RadialRange, Result, Setup, StrategyError};
 
@@ -81,8 +83,9 @@ impl FeedTable {
             (inner, outer)
         };
         let step = (to - from) / FEWEST_CELLS as f64;
-        let mut borders: Vec<f64> = (0..FEWEST_CELLS).map(|i| from + i as f64 * step).collect();
-        borders.push(to);
+        // The last border is the end itself, without the rounding of a sum.
+        let borders = (0..FEWEST_CELLS).map(|i| from + i as f64 * step);
+        let borders: Vec<f64> = borders.chain(once(to)).collect();
         let mut table = Self {
             from,
             step,
@@ -92,7 +95,9 @@ impl FeedTable {
         };
         table.set_floors();
         while table.cells() < most {
-            if table.cost() <= TABLE_COST && !table.lower_floors(feeds_at)? {
+            let is_dear = table.cost() > TABLE_COST;
+            if !is_dear && !table.lower_floors(feeds_at)? {
+                // No probe lies below its floor.
                 return Ok(table);
             }
             table.halve(feeds_at)?;
