@@ -16,7 +16,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseResult, TestRng, TestRunner};
 
 /// Random parts for each compensator and direction.
-const CASES: u32 = 12;
+const CASES: u32 = 6;
 /// The same in the long tests, which begin with those parts.
 const LONG_CASES: u32 = 350;
 /// Sections of a turn, one control point on each.

@@ -168,7 +168,15 @@ fn ignored() -> Outcome {
     if ignored_tests().is_empty() {
         return Outcome::Passed;
     }
-    let words = ["test", "--locked", "--workspace", "--release", "--tests"];
+    let words = [
+        "test",
+        "--locked",
+        "--workspace",
+        "--release",
+        "--tests",
+        // One suite that fails leaves the others to be run.
+        "--no-fail-fast",
+    ];
     let mut tests = cargo(&words);
     tests.args(["--", "--ignored", "--skip", QUEUES]);
     run(tests)
@@ -205,7 +213,13 @@ fn queues() -> Vec<Step> {
 
 /// The libraries' tests and those that a crate has in `tests/all`.
 fn random_input() -> Outcome {
-    let words = ["test", "--locked", "--workspace", "--release"];
+    let words = [
+        "test",
+        "--locked",
+        "--workspace",
+        "--release",
+        "--no-fail-fast",
+    ];
     let mut tests = cargo(&words);
     let cases = std::env::var("PROPTEST_CASES").ok();
     let cases = cases.and_then(|cases| cases.parse().ok()).unwrap_or(0);
