@@ -79,10 +79,9 @@ fn assert_all_chains(runs: &[Value]) {
     }
 }
 
-/// The part on which every run of the tests compares all strategies, and its size: the crest of a lens.
-const LENS_ARRAY: (&str, &str) = ("ablation-papers-mla-5.toml", "0.9 mm");
-/// The same part as far as the flanks of the lens, where its curvature changes its sign.
-const WHOLE_LENS: (&str, &str) = (LENS_ARRAY.0, "1.6 mm");
+/// The part on which every run of the tests compares all strategies, and its size: a lens as far as its flanks,
+/// where its curvature changes its sign.
+const LENS_ARRAY: (&str, &str) = ("ablation-papers-mla-5.toml", "1.6 mm");
 
 /// The ablation of the lens array and its answer, made once for all tests.
 fn lens_array() -> &'static (Bench, Answer) {
@@ -122,14 +121,6 @@ fn long_the_papers_strategies_stand_beside_a_labs_own_sampler_on_the_saddle() {
     let saddle = ("ablation-papers.toml", "4 mm");
     let answer = ablate(&bench, saddle.0, saddle.1, plugins.path()).ends(0);
     assert_whole(&bench, &answer, saddle);
-}
-
-#[test]
-#[ignore = "too slow for every run of the tests; `cargo xtask long` runs it"]
-fn long_the_papers_strategies_stand_beside_a_labs_own_sampler_on_a_whole_lens() {
-    let (bench, plugins) = (Bench::empty(), plugin_folder(&["constant-arc"]));
-    let answer = ablate(&bench, WHOLE_LENS.0, WHOLE_LENS.1, plugins.path()).ends(0);
-    assert_whole(&bench, &answer, WHOLE_LENS);
 }
 
 /// On a lattice of lenslets ATS differs from the other feeds in the acceleration of X.
