@@ -4,8 +4,8 @@
 //!
 //! 1. `trend`: the quadratic of best fit is taken away, so that what follows works on what is
 //!    left, and added again at the end.
-//! 2. `low_pass`: with `smooth`, what is shorter than the cutoff is removed,
-//!    after `blocks` of points were averaged where a map is much finer.
+//! 2. `low_pass`: with `smooth`, what is shorter than the cutoff is removed by a `gaussian`, and by `planes` at edges
+//!    and beside holes, after `blocks` of points were averaged where a map is much finer.
 //! 3. `bending`: holes, and a margin around the map, are filled so that the bend of a `plate` changes
 //!    least.
 //! 4. `interpolation`: the coefficients of a tensor B-spline of degree 5 through all points.
@@ -23,8 +23,10 @@ mod cells;
 mod continuation;
 mod differences;
 mod edges;
+mod gaussian;
 mod interpolation;
 mod low_pass;
+mod planes;
 mod plate;
 mod plate_edge;
 mod points;

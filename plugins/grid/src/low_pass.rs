@@ -9,18 +9,10 @@
 //! times as it has numbers, and stands where their middle lies: so no number is lost where a map has
 //! many holes.
 
-use std::f64::consts::{LN_2, PI};
-
-use turnpath_plugin::prelude::Scalar;
-
 use crate::blocks::Blocks;
+use crate::gaussian::Gaussian;
+use crate::planes::{PLANES, Planes};
 use crate::sheet::Sheet;
-
-/// The Gaussian ends at this distance, in cutoffs, where its weight is 6.5e-7.
-const END: f64 = 1.0;
-
-/// The share of the full determinant below which neighbours lie on a line, and give a mean alone.
-const FLAT: f64 = 1e-9;
 
 /// Filters the means of blocks. `cutoff` is in columns and in rows of blocks.
 pub fn filter(blocks: &Blocks, cutoff: [f64; 2]) -> Sheet {
@@ -28,46 +20,24 @@ pub fn filter(blocks: &Blocks, cutoff: [f64; 2]) -> Sheet {
     let sheet = &blocks.means;
     let full = Full::of(blocks);
     let mut filtered = spread(sheet, &along_x, &along_y);
-    for (place, value) in filtered.values.iter_mut().enumerate() {
-        let (column, row) = (place % sheet.columns, place / sheet.columns);
-        if sheet.values[place].is_nan() {
-            *value = f64::NAN;
-        } else if !full.around(column, row, along_x.reach, along_y.reach) {
-            *value = of_plane(blocks, (column, row), &along_x, &along_y);
+    let mut planes = Planes::new(blocks, &along_x, &along_y);
+    for (row, line) in filtered.lines_mut().enumerate() {
+        let means = &sheet.values[row * sheet.columns..][..sheet.columns];
+        let mut known = 0..0;
+        let mut heights = [0.0; PLANES];
+        for (column, value) in line.iter_mut().enumerate() {
+            if means[column].is_nan() {
+                *value = f64::NAN;
+            } else if !full.around(column, row, along_x.reach, along_y.reach) {
+                if !known.contains(&column) {
+                    known = column..column + PLANES;
+                    heights = planes.heights(column, row);
+                }
+                *value = heights[column - known.start];
+            }
         }
     }
     filtered
-}
-
-/// Weights along one axis.
-struct Gaussian {
-    /// From the middle on; the sum over both sides is 1.
-    weights: Vec<f64>,
-    reach: usize,
-}
-
-impl Gaussian {
-    fn new(cutoff: f64) -> Self {
-        let reach = (cutoff * END).ceil() as usize;
-        let weight = |k: usize| {
-            let share = k as f64 / cutoff;
-            Scalar::exp(-share * share * (PI * PI / LN_2))
-        };
-        let mut weights: Vec<f64> = (0..=reach).map(weight).collect();
-        let sum: f64 = weights.iter().skip(1).sum::<f64>() * 2.0 + 1.0;
-        for weight in &mut weights {
-            *weight /= sum;
-        }
-        Self { weights, reach }
-    }
-
-    /// The weight of a number `apart` from the middle.
-    fn at(&self, one: usize, other: usize) -> f64 {
-        self.weights
-            .get(one.abs_diff(other))
-            .copied()
-            .unwrap_or(0.0)
-    }
 }
 
 /// The weighted means, right where the whole Gaussian lies on numbers: holes count as 0 here.
@@ -142,52 +112,12 @@ impl Full {
     }
 }
 
-/// The height, at a place, of the plane that fits its neighbours best.
-fn of_plane(
-    blocks: &Blocks,
-    (column, row): (usize, usize),
-    along_x: &Gaussian,
-    along_y: &Gaussian,
-) -> f64 {
-    // Weights, and weights times x, y, x², xy, y²; then heights, and heights times x, y.
-    let (mut w, mut h) = ([0.0; 6], [0.0; 3]);
-    let first = |at: usize, reach: usize| at.saturating_sub(reach);
-    let sheet = &blocks.means;
-    let (top, left) = (first(row, along_y.reach), first(column, along_x.reach));
-    let lines = sheet.lines().enumerate().skip(top);
-    for (other, line) in lines.take(row + along_y.reach + 1 - top) {
-        let of_row = along_y.at(row, other);
-        let values = line.iter().enumerate().skip(left);
-        for (place, value) in values.take(column + along_x.reach + 1 - left) {
-            if value.is_nan() {
-                continue;
-            }
-            let middle = blocks.middle(other * sheet.columns + place);
-            let x = place as f64 - column as f64 + middle.x;
-            let y = other as f64 - row as f64 + middle.y;
-            let weight = middle.share * of_row * along_x.at(column, place);
-            for (sum, term) in w.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
-                *sum += weight * term;
-            }
-            for (sum, term) in h.iter_mut().zip([1.0, x, y]) {
-                *sum += weight * term * value;
-            }
-        }
-    }
-    let [one, x, y, xx, xy, yy] = w;
-    // Minors of the matrix of the three equations, along its first row.
-    let minors = [xx * yy - xy * xy, x * yy - xy * y, x * xy - xx * y];
-    let determinant = one * minors[0] - x * minors[1] + y * minors[2];
-    if determinant > FLAT * one * xx * yy {
-        return (h[0] * minors[0] - h[1] * minors[1] + h[2] * minors[2]) / determinant;
-    }
-    h[0] / one
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::TAU;
+    use std::f64::consts::{LN_2, TAU};
+
+    use turnpath_plugin::prelude::Scalar;
 
     /// ISO 16610-61: half of a wave as long as the cutoff passes, and exp(−ln 2 (λc/λ)²) of others.
     #[test]

@@ -18,8 +18,12 @@ use crate::{Path, Result, Revolutions};
 const COARSEST: f64 = 367.0;
 /// Number of samples in a batch.
 const BATCH: usize = 256;
+/// The same of the first batch on a grid, which may turn out too coarse with the first step.
+const FIRST_BATCH: usize = 32;
 /// Number of cells that are estimated together.
 const CELLS: usize = 96;
+/// The same of the first cells on a grid.
+const FIRST_CELLS: usize = 16;
 /// In one of so many cells a sample is evaluated to see whether its estimate holds.
 const CHECKED: usize = 8;
 /// Samples that are no longer needed are dropped, so many at a time.
@@ -31,6 +35,8 @@ pub(super) struct Samples<'a> {
     block: Revolutions,
     /// The grid's spacing, in revolutions.
     spacing: f64,
+    /// Whether a sample does not depend on those that are evaluated with it.
+    is_pointwise: bool,
     /// Whether samples are estimated at first.
     estimates: bool,
     /// Whether each sample that was evaluated lay within the limits of its estimate.
@@ -57,8 +63,10 @@ impl<'a> Samples<'a> {
         estimates: bool,
     ) -> Self {
         let phi = PhiEvaluator::new(path, block, (max_step, feed_part), allowed);
+        let is_pointwise = phi.is_pointwise(block);
         Self {
-            estimates: estimates && phi.is_pointwise(block),
+            is_pointwise,
+            estimates: estimates && is_pointwise,
             estimates_hold: true,
             phi,
             block,
@@ -194,7 +202,17 @@ impl<'a> Samples<'a> {
     /// The next batch, all of it exact.
     fn load(&mut self) -> Result<()> {
         let from = self.first + self.fourth.len();
-        let exact = self.fourths(from..from + BATCH)?;
+        let mut to = from + BATCH;
+        if self.is_pointwise {
+            let count = if self.fourth.is_empty() {
+                FIRST_BATCH
+            } else {
+                BATCH
+            };
+            let behind_block = self.at_or_before(self.block.end) + 2;
+            to = (from + count).min(behind_block).max(from + 1);
+        }
+        let exact = self.fourths(from..to)?;
         self.fourth.extend(exact.into_iter().map(Estimate::exact));
         Ok(())
     }
@@ -203,7 +221,12 @@ impl<'a> Samples<'a> {
     fn load_cells(&mut self) -> Result<()> {
         let first_cell = (self.first + self.fourth.len()) / STRIDE;
         let whole = self.at_or_before(self.block.end) / STRIDE;
-        let end = (first_cell + CELLS).min(whole + 2).max(first_cell + 1);
+        let count = if self.fourth.is_empty() {
+            FIRST_CELLS
+        } else {
+            CELLS
+        };
+        let end = (first_cell + count).min(whole + 2).max(first_cell + 1);
         self.load_corners(first_cell.saturating_sub(REACH), (end + REACH).min(whole))?;
         let mut evaluated = Vec::new();
         for cell in first_cell..end {

@@ -114,7 +114,7 @@ impl SamplerPlan for Steps {
 }
 
 impl Steps {
-    /// The nodes of `block`. `None` if an estimate does not hold, so that all samples have to be evaluated.
+    /// The nodes of `block`. `None` as soon as an estimate does not hold, so that all samples have to be evaluated.
     fn walk(
         &self,
         path: &Path<'_>,
@@ -126,13 +126,16 @@ impl Steps {
         while n < block.end {
             nodes.push(n);
             let next = walk.step_from(n)?;
+            if !walk.samples.estimates_hold() {
+                return Ok(None);
+            }
             n = if block.end - next < SLACK * (next - n) {
                 block.end
             } else {
                 next
             };
         }
-        Ok(walk.samples.estimates_hold().then_some(nodes))
+        Ok(Some(nodes))
     }
 }
 
@@ -144,6 +147,8 @@ struct Walk<'a> {
     end: f64,
     max_step: f64,
     allowed: f64,
+    /// Whether a step was made on the present grid.
+    grid_suits: bool,
     /// Room for numbers of samples.
     rivals: Vec<usize>,
 }
@@ -175,6 +180,7 @@ impl<'a> Walk<'a> {
             end: block.end,
             max_step: steps.max_step,
             allowed,
+            grid_suits: false,
             rivals: Vec::new(),
         })
     }
@@ -197,14 +203,21 @@ impl<'a> Walk<'a> {
             }
             let looks = natural / self.samples.spacing();
             if looks < LEAST_SAMPLES {
-                self.samples.rescale(0.5);
+                self.rescale(0.5);
                 continue;
             }
             if looks > TOO_FINE * LEAST_SAMPLES && !self.samples.is_coarsest() {
-                self.samples.rescale(2.0);
+                self.rescale(2.0);
+            } else {
+                self.grid_suits = true;
             }
             return Ok(step.end);
         }
+    }
+
+    fn rescale(&mut self, factor: f64) {
+        self.samples.rescale(factor);
+        self.grid_suits = false;
     }
 
     /// The longest step from `n` on the present grid. The walk goes from mark to mark, where a mark
@@ -283,7 +296,9 @@ impl<'a> Walk<'a> {
         rivals.clear();
         self.samples.add_rivals(samples.clone(), floor, &mut rivals);
         if !rivals.is_empty() {
-            self.foresee(n, &mut rivals);
+            if self.grid_suits {
+                self.foresee(n, &mut rivals);
+            }
             rivals.sort_unstable();
             rivals.dedup();
             self.samples.make_exact(&rivals)?;

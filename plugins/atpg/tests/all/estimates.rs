@@ -203,3 +203,18 @@ fn nodes_of_rings_that_the_first_samples_do_not_see_are_those_of_all_samples() {
         }
     }
 }
+
+/// About two periods of the ripple lie in a step, and less than two of the first samples in a period.
+#[test]
+fn ripples_that_estimates_cannot_follow_take_few_more_series_than_all_samples() {
+    let ripple = Ripple {
+        height: 1e-6,
+        features: 200.0,
+        from: 0.0,
+    };
+    let (estimated, every) = compare(&ast_5(ZDirection), ripple, 3);
+    assert!(
+        estimated < 1.02 * every,
+        "{estimated} and {every} series a node"
+    );
+}

@@ -1,0 +1,213 @@
+//! Planes of best fit through neighbours, weighted, for places that lie side by side.
+
+use turnpath_plugin::registers::{Loop, in_widest};
+
+use crate::blocks::Blocks;
+use crate::gaussian::Gaussian;
+
+/// The share of the full determinant below which neighbours lie on a line, and give a mean alone.
+const FLAT: f64 = 1e-9;
+
+/// Places in a row whose planes are fitted together.
+pub const PLANES: usize = 8;
+
+/// A number of each place.
+type Numbers = [f64; PLANES];
+
+/// The planes through the means of blocks.
+pub struct Planes<'a> {
+    blocks: &'a Blocks,
+    along_x: &'a Gaussian,
+    along_y: &'a Gaussian,
+    window: Vec<Line>,
+}
+
+/// A row of the blocks around places, from the farthest block that counts on the left to that on the right. A
+/// block that is a hole, or that is not there, has no share.
+struct Line {
+    /// Its weight for the places.
+    weight: f64,
+    share: Vec<f64>,
+    /// Where the middle of each block's numbers lies, from the block's own middle on.
+    x: Vec<f64>,
+    /// The same, from the row of the places on.
+    y: Vec<f64>,
+    value: Vec<f64>,
+}
+
+impl Line {
+    fn blank(width: usize) -> Self {
+        let numbers = || vec![0.0; width];
+        Self {
+            weight: 0.0,
+            share: numbers(),
+            x: numbers(),
+            y: numbers(),
+            value: numbers(),
+        }
+    }
+}
+
+impl<'a> Planes<'a> {
+    /// Planes whose neighbours count with these weights along x and along y.
+    pub fn new(blocks: &'a Blocks, along_x: &'a Gaussian, along_y: &'a Gaussian) -> Self {
+        let lines = 0..=2 * along_y.reach;
+        let width = PLANES + 2 * along_x.reach;
+        Self {
+            blocks,
+            along_x,
+            along_y,
+            window: lines.map(|_| Line::blank(width)).collect(),
+        }
+    }
+
+    /// The heights, at a place and at those behind it in its row, of the planes that fit their neighbours best.
+    pub fn heights(&mut self, column: usize, row: usize) -> Numbers {
+        let count = self.look_around(column, row);
+        in_widest(Fit {
+            along_x: self.along_x,
+            window: &self.window[..count],
+        })
+    }
+
+    /// Puts the blocks around places into the window, and gives the number of its rows.
+    fn look_around(&mut self, column: usize, row: usize) -> usize {
+        let Self {
+            blocks,
+            along_x,
+            along_y,
+            window,
+        } = self;
+        let sheet = &blocks.means;
+        let top = row.saturating_sub(along_y.reach);
+        let rows = top..(row + along_y.reach + 1).min(sheet.rows);
+        let count = rows.len();
+        for (other, line) in rows.zip(window) {
+            line.weight = along_y.at(row, other);
+            for step in 0..line.share.len() {
+                let place = (column + step).checked_sub(along_x.reach);
+                let place = place.filter(|place| *place < sheet.columns);
+                let place = place.map(|place| other * sheet.columns + place);
+                let known = place.filter(|place| !sheet.values[*place].is_nan());
+                let (mut share, mut x, mut y, mut value) = (0.0, 0.0, 0.0, 0.0);
+                if let Some(place) = known {
+                    let middle = blocks.middle(place);
+                    (share, x, value) = (middle.share, middle.x, sheet.values[place]);
+                    y = other as f64 - row as f64 + middle.y;
+                }
+                (line.share[step], line.x[step]) = (share, x);
+                (line.y[step], line.value[step]) = (y, value);
+            }
+        }
+        count
+    }
+}
+
+/// The loop that fits planes to a window.
+struct Fit<'a> {
+    along_x: &'a Gaussian,
+    window: &'a [Line],
+}
+
+impl Loop for Fit<'_> {
+    type Output = Numbers;
+
+    #[inline(always)]
+    fn call(self) -> Numbers {
+        let Self { along_x, window } = self;
+        // Weights, and weights times x, y, x², xy, y²; then heights, and heights times x, y.
+        let (mut w, mut h) = ([[0.0; PLANES]; 6], [[0.0; PLANES]; 3]);
+        for line in window {
+            for step in 0..=2 * along_x.reach {
+                let of_column = along_x.at(along_x.reach, step);
+                let right = step as f64 - along_x.reach as f64;
+                let [share, x, y, value] = [&line.share, &line.x, &line.y, &line.value]
+                    .map(|numbers| numbers[step..].first_chunk::<PLANES>());
+                let (Some(share), Some(x), Some(y), Some(value)) = (share, x, y, value) else {
+                    continue;
+                };
+                for i in 0..PLANES {
+                    let (x, y) = (right + x[i], y[i]);
+                    let weight = share[i] * line.weight * of_column;
+                    for (sum, term) in w.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
+                        sum[i] += weight * term;
+                    }
+                    for (sum, term) in h.iter_mut().zip([1.0, x, y]) {
+                        sum[i] += weight * term * value[i];
+                    }
+                }
+            }
+        }
+        std::array::from_fn(|i| height(w.map(|w| w[i]), h.map(|h| h[i])))
+    }
+}
+
+/// The height of the plane, from the sums of weights and of heights.
+#[inline(always)]
+fn height([one, x, y, xx, xy, yy]: [f64; 6], h: [f64; 3]) -> f64 {
+    // Minors of the matrix of the three equations, along its first row.
+    let minors = [xx * yy - xy * xy, x * yy - xy * y, x * xy - xx * y];
+    let determinant = one * minors[0] - x * minors[1] + y * minors[2];
+    if determinant > FLAT * one * xx * yy {
+        return (h[0] * minors[0] - h[1] * minors[1] + h[2] * minors[2]) / determinant;
+    }
+    h[0] / one
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::Sheet;
+
+    /// The same from one block after the other, at one place.
+    fn alone(blocks: &Blocks, [along_x, along_y]: [&Gaussian; 2], at: (usize, usize)) -> f64 {
+        let (column, row) = at;
+        let (mut w, mut h) = ([0.0; 6], [0.0; 3]);
+        let sheet = &blocks.means;
+        for (place, value) in sheet.values.iter().enumerate() {
+            let (right, down) = (place % sheet.columns, place / sheet.columns);
+            let middle = blocks.middle(place);
+            let (x, y) = (
+                right as f64 - column as f64 + middle.x,
+                down as f64 - row as f64 + middle.y,
+            );
+            let weight = middle.share * along_y.at(row, down) * along_x.at(column, right);
+            if value.is_nan() || weight == 0.0 {
+                continue;
+            }
+            for (sum, term) in w.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
+                *sum += weight * term;
+            }
+            for (sum, term) in h.iter_mut().zip([1.0, x, y]) {
+                *sum += weight * term * value;
+            }
+        }
+        height(w, h)
+    }
+
+    /// At all edges and beside holes, with blocks of single points and of several, some of which are missing.
+    #[test]
+    fn heights_side_by_side_are_those_of_each_place_alone() {
+        let jump = |u: f64, v: f64| (3.7 * u * u + 5.3 * v + 2.9 * u * v) % 4.0;
+        let is_there = |u: f64, v: f64| (u * 37.0 + v * 101.0 + u * v * 13.0) % 64.0 > 19.0;
+        let sheet = Sheet::of_values(42, 22, |u, v| match is_there(u, v) {
+            true => jump(u, v),
+            false => f64::NAN,
+        });
+        for (wide, high) in [(1, 1), (2, 1), (3, 2)] {
+            let blocks = Blocks::of(&sheet, wide, high);
+            let [along_x, along_y] = [4.2, 3.0].map(Gaussian::new);
+            let mut planes = Planes::new(&blocks, &along_x, &along_y);
+            let Sheet { columns, rows, .. } = blocks.means;
+            for row in 0..rows {
+                for column in 0..columns {
+                    let together = planes.heights(column, row);
+                    for (found, column) in together.iter().zip(column..columns) {
+                        let wanted = alone(&blocks, [&along_x, &along_y], (column, row));
+                        assert_eq!(found.to_bits(), wanted.to_bits(), "{column} {row}");
+                    }
+                }
+            }
+        }
+    }
+}
