@@ -9,6 +9,5 @@ mod ats;
 mod fft_adaptive;
 mod integrated;
 mod minimax;
-mod planning;
 mod reproduction;
 mod velocities;

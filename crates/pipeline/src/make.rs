@@ -48,7 +48,10 @@ pub fn make(
     depths: &[Depths],
     solver_state: Option<&mut Vec<f64>>,
 ) -> Result<Vec<BlockPoints>> {
-    let overlap = plan.overlap();
+    let overlap = match plan.chain.velocity.strategy.dependence() {
+        Dependence::Overlap(nodes) => nodes,
+        Dependence::Local | Dependence::Sequential => 0,
+    };
     let row = locate_with_neighbours(plan, range.clone(), overlap, depths)?;
     let mut blocks: Vec<BlockPoints> = match solver_state {
         Some(state) => {

@@ -25,10 +25,6 @@ const COMFORTABLE_BLOCK: f64 = 50_000.0;
 /// that `check` says of the table of points err by up to 2.7 % for the recipes of the documentation, and with
 /// 60 by as much. With 15 they err by up to 5.5 %.
 const SAMPLED_BLOCK: f64 = 30.0;
-/// Most nodes of the neighbours that a velocity solver gets on either side of a sampled block. What lies so
-/// many nodes away counts 1e-9 in the velocity of a spline, and refinement asks how many points an error
-/// takes, not for its last digits.
-const SAMPLED_OVERLAP: usize = 16;
 /// Most numbers for nodes that are held in memory while a path is planned, refined and written: 160
 /// MB. A node on the path takes one, and a node beside it three. The sampler of a longer path is asked
 /// again in every pass.
@@ -74,8 +70,6 @@ pub struct Plan<'a> {
     block: f64,
     /// Nodes of a revolution where they are densest.
     density: f64,
-    /// Most nodes of neighbours that the velocity solver gets on either side of a block.
-    most_overlap: usize,
     /// The sampler's plan of the whole path.
     sampler: Box<dyn SamplerPlan>,
     /// The state that a sequential sampler carries into each block; empty for others.
@@ -115,7 +109,6 @@ impl<'a> Plan<'a> {
             start: Start::default(),
             block: BLOCK,
             density: 0.0,
-            most_overlap: MOST_OVERLAP,
             sampler,
             sampler_states: Vec::new(),
             held: Vec::new(),
@@ -175,7 +168,6 @@ impl<'a> Plan<'a> {
     /// Divides the path into small blocks, of which a sample is taken. Those of a sequential sampler
     /// stay, as it has run over them already, and so do blocks whose nodes are held.
     pub fn divide_for_sample(&mut self) {
-        self.most_overlap = SAMPLED_OVERLAP;
         if self.sampler.dependence() == Dependence::Sequential || self.holds_nodes() {
             return;
         }
@@ -263,14 +255,6 @@ impl<'a> Plan<'a> {
     pub fn own_angles(&self) -> Option<[f64; 2]> {
         self.own
             .map(|own| own.map(|n| TAU * (n + self.start.turns)))
-    }
-
-    /// Nodes of neighbours that the velocity solver gets on either side of a block.
-    pub fn overlap(&self) -> usize {
-        match self.chain.velocity.strategy.dependence() {
-            Dependence::Overlap(nodes) => nodes.min(self.most_overlap),
-            Dependence::Local | Dependence::Sequential => 0,
-        }
     }
 
     /// Revolutions of every block but the last.

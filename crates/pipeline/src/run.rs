@@ -141,9 +141,7 @@ impl<'a> PathRun<'a> {
         observer.begin(Stage::Law, 0);
         let mut plan = schedule::plan(chain, preparation, observer)?;
         plan.time_steps = options.time_steps;
-        if options.refine {
-            plan.hold_nodes();
-        }
+        plan.hold_nodes();
         // The leads and the first block wait for the second one.
         let (nodes, ()) = rayon::join(|| nodes_per_revolution(&plan), || plan.sample_ahead(1));
         let nodes = nodes?;

@@ -112,7 +112,9 @@ impl Diagnostic {
             .help
             .iter()
             .map(|help| Level::HELP.message(printable(help)));
-        renderer.render(&[self.with_snippet(group).elements(helps)])
+        let rendered = renderer.render(&[self.with_snippet(group).elements(helps)]);
+        // The renderer replaces other control characters itself.
+        rendered.replace(is_late_control, "\u{fffd}")
     }
 
     fn with_snippet<'a>(&'a self, group: Group<'a>) -> Group<'a> {
@@ -139,6 +141,11 @@ impl Diagnostic {
             None => (usize::MAX, 0),
         }
     }
+}
+
+/// Whether a character is one of the control characters behind ASCII, from U+0080 to U+009F.
+fn is_late_control(c: char) -> bool {
+    c.is_control() && !c.is_ascii()
 }
 
 impl Diagnostics {
@@ -234,6 +241,24 @@ mod tests {
             rank: 0,
         };
         Span::new(Arc::new(source), start..start + 1)
+    }
+
+    #[test]
+    fn control_characters_of_the_text_do_not_reach_a_terminal() {
+        for control in (0..0xa0_u32).filter_map(char::from_u32) {
+            if !control.is_control() || control == '\n' {
+                continue;
+            }
+            let source = Source {
+                name: "a.toml".to_owned(),
+                text: format!("[f{control}m"),
+                rank: 0,
+            };
+            let message = Diagnostic::new(Span::new(Arc::new(source), 1..2), "wrong");
+            let rendered = message.render(false);
+            let strange = |c: char| c.is_control() && c != '\n';
+            assert!(!rendered.contains(strange), "{rendered:?}");
+        }
     }
 
     #[test]

@@ -89,7 +89,7 @@ impl Blocks {
         Self { means, middles }
     }
 
-    /// What the mean at a place stands for. A hole has no share.
+    /// What the mean at a place stands for, unless the place is a hole.
     pub fn middle(&self, place: usize) -> Middle {
         self.middles.get(place).copied().unwrap_or(WHOLE)
     }

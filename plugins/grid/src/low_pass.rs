@@ -11,7 +11,7 @@
 
 use crate::blocks::Blocks;
 use crate::gaussian::Gaussian;
-use crate::planes::{PLANES, Planes};
+use crate::planes::{PLACES, Planes};
 use crate::sheet::Sheet;
 
 /// Filters the means of blocks. `cutoff` is in columns and in rows of blocks.
@@ -21,16 +21,16 @@ pub fn filter(blocks: &Blocks, cutoff: [f64; 2]) -> Sheet {
     let full = Full::of(blocks);
     let mut filtered = spread(sheet, &along_x, &along_y);
     let mut planes = Planes::new(blocks, &along_x, &along_y);
-    for (row, line) in filtered.lines_mut().enumerate() {
-        let means = &sheet.values[row * sheet.columns..][..sheet.columns];
+    let lines = filtered.lines_mut().zip(sheet.lines());
+    for (row, (line, means)) in lines.enumerate() {
         let mut known = 0..0;
-        let mut heights = [0.0; PLANES];
-        for (column, value) in line.iter_mut().enumerate() {
-            if means[column].is_nan() {
+        let mut heights = [0.0; PLACES];
+        for (column, (value, mean)) in line.iter_mut().zip(means).enumerate() {
+            if mean.is_nan() {
                 *value = f64::NAN;
             } else if !full.around(column, row, along_x.reach, along_y.reach) {
                 if !known.contains(&column) {
-                    known = column..column + PLANES;
+                    known = column..column + PLACES;
                     heights = planes.heights(column, row);
                 }
                 *value = heights[column - known.start];

@@ -9,29 +9,32 @@ use crate::gaussian::Gaussian;
 const FLAT: f64 = 1e-9;
 
 /// Places in a row whose planes are fitted together.
-pub const PLANES: usize = 8;
+pub const PLACES: usize = 8;
 
 /// A number of each place.
-type Numbers = [f64; PLANES];
+type Numbers = [f64; PLACES];
 
 /// The planes through the means of blocks.
 pub struct Planes<'a> {
     blocks: &'a Blocks,
     along_x: &'a Gaussian,
     along_y: &'a Gaussian,
+    /// Room for the rows around places.
     window: Vec<Line>,
 }
 
 /// A row of the blocks around places, from the farthest block that counts on the left to that on the right. A
 /// block that is a hole, or that is not there, has no share.
 struct Line {
-    /// Its weight for the places.
+    /// The row's weight.
     weight: f64,
+    /// The share of each block's points that have a number.
     share: Vec<f64>,
     /// Where the middle of each block's numbers lies, from the block's own middle on.
     x: Vec<f64>,
     /// The same, from the row of the places on.
     y: Vec<f64>,
+    /// The mean of each block.
     value: Vec<f64>,
 }
 
@@ -52,7 +55,7 @@ impl<'a> Planes<'a> {
     /// Planes whose neighbours count with these weights along x and along y.
     pub fn new(blocks: &'a Blocks, along_x: &'a Gaussian, along_y: &'a Gaussian) -> Self {
         let lines = 0..=2 * along_y.reach;
-        let width = PLANES + 2 * along_x.reach;
+        let width = PLACES + 2 * along_x.reach;
         Self {
             blocks,
             along_x,
@@ -116,17 +119,14 @@ impl Loop for Fit<'_> {
     fn call(self) -> Numbers {
         let Self { along_x, window } = self;
         // Weights, and weights times x, y, x², xy, y²; then heights, and heights times x, y.
-        let (mut w, mut h) = ([[0.0; PLANES]; 6], [[0.0; PLANES]; 3]);
+        let (mut w, mut h) = ([[0.0; PLACES]; 6], [[0.0; PLACES]; 3]);
         for line in window {
-            for step in 0..=2 * along_x.reach {
+            let places = line.share.windows(PLACES).zip(line.x.windows(PLACES));
+            let heights = line.y.windows(PLACES).zip(line.value.windows(PLACES));
+            for (step, ((share, x), (y, value))) in places.zip(heights).enumerate() {
                 let of_column = along_x.at(along_x.reach, step);
                 let right = step as f64 - along_x.reach as f64;
-                let [share, x, y, value] = [&line.share, &line.x, &line.y, &line.value]
-                    .map(|numbers| numbers[step..].first_chunk::<PLANES>());
-                let (Some(share), Some(x), Some(y), Some(value)) = (share, x, y, value) else {
-                    continue;
-                };
-                for i in 0..PLANES {
+                for i in 0..PLACES {
                     let (x, y) = (right + x[i], y[i]);
                     let weight = share[i] * line.weight * of_column;
                     for (sum, term) in w.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {

@@ -8,6 +8,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
+
 use crate::support::bench::{Bench, TURNPATH};
 
 /// Longest time that a call may take: far more than its processor time, since the tests may share
@@ -79,6 +81,11 @@ impl Call {
         }
     }
 
+    /// The JSON that was printed.
+    pub fn report(&self) -> Option<Value> {
+        serde_json::from_str(&self.stdout).ok()
+    }
+
     /// What is wrong with any end: a panic, a signal, no end, a status without its message, or JSON
     /// that is none.
     pub fn complaint(&self) -> Option<String> {
@@ -90,12 +97,14 @@ impl Call {
             End::Signal => Some(format!("a signal: {self}")),
             End::Never => Some(format!("no end: {self}")),
             End::Status(0 | 1) => {
-                let json = serde_json::from_str::<serde_json::Value>(stdout);
-                let answers = json.is_ok() || stdout.is_empty();
+                let answers = self.report().is_some() || stdout.is_empty();
                 (!answers).then(|| format!("no JSON: {self}"))
             }
             End::Status(2..=4) => {
-                let told = stderr.contains("error: ") && stdout.is_empty();
+                // `check` says the shape of a part whose recipe it refuses.
+                let refuses = |report: Value| report["refused"].is_string();
+                let is_refusal = self.end == End::Status(2) && self.report().is_some_and(refuses);
+                let told = stderr.contains("error: ") && (stdout.is_empty() || is_refusal);
                 (!told).then(|| format!("no message: {self}"))
             }
             End::Status(_) => Some(format!("not a documented status: {self}")),

@@ -3,8 +3,6 @@
 
 use std::path::Path;
 
-use serde_json::Value;
-
 use super::call::{Call, End, Outcome, Tally, try_all, words};
 use super::damage::damaged;
 use super::seeded::SeededNumbers;
@@ -152,8 +150,8 @@ fn is_long_work(bench: &Bench, args: &[String]) -> bool {
         check.extend_from_slice(&args[at..]);
     }
     let check = Call::new(bench, &check);
-    let report: Option<Value> = serde_json::from_str(&check.stdout).ok();
-    let points = report.and_then(|report| report["estimate"]["control_points"].as_f64());
+    let report = check.report();
+    let points = report.and_then(|report| report["expected"]["control_points"].as_f64());
     points.is_some_and(|points| points > LONG_WORK)
 }
 

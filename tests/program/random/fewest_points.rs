@@ -179,7 +179,7 @@ fn of_path(bench: &Bench, case: &Case, run: &Call, call: impl Fn(&str) -> Call) 
 }
 
 fn report(call: &Call) -> Value {
-    serde_json::from_str(&call.stdout).unwrap_or_default()
+    call.report().unwrap_or_default()
 }
 
 /// What of a run does not hold and should. Residual and coverage that the law itself exceeds do not

@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use serde_json::Value;
-
 use super::call::{Call, End, Outcome, Tally, try_all, words};
 use super::seeded::SeededNumbers;
 use super::valid_recipes::{SPINDLE_PLUGIN, valid_recipe, with_plugins};
@@ -73,7 +71,7 @@ fn of_file(file: &str, run: &Call, said: &Call) -> Option<String> {
     if !matches!(said.end, End::Status(0 | 1)) {
         return Some("not measured".to_owned());
     }
-    let report = |call: &Call| serde_json::from_str::<Value>(&call.stdout).unwrap_or_default();
+    let report = |call: &Call| call.report().unwrap_or_default();
     let (ran, verified) = (report(run), report(said));
     let (anomalies, within) = (&verified["anomalies"], &verified["within"]);
     let is_table = file.ends_with("csv");

@@ -30,6 +30,17 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "RAYON_NUM_THREA
 ROUNDING = 1.5e-7
 
 
+# AST-50 on a machine with a fast spindle, at whose largest speed Z would accelerate too much: the changes that
+# docs/fewest-points.md has.
+FAST_SPINDLE = [
+    "path.lead=false",
+    "path.overrun=none",
+    "spindle.speed=3000 rpm",
+    'machine={ c_acceleration = "1000 rad/s^2", c_jerk = "5e4 rad/s^3", '
+    'z_acceleration = "500 mm/s^2", z_jerk = "2e5 mm/s^3" }',
+    'ablation.spindle=[{ use = "per-revolution", speed = "3000 rpm" }]',
+]
+
 ALL = 0  # threads: as many as there are processors
 
 
@@ -238,6 +249,29 @@ class Bench:
         for name, run in fastest(checks, self.chosen.rounds).items():
             yield f"| {name} | {1e3 * run.processor:.0f} | {1e3 * run.clock:.0f} |\n"
 
+    def planning(self):
+        """The processor time to plan the fewest points and the least time, on AST-50."""
+        yield "| planning AST-50 | at a constant speed, s | over `atpg` | with `per-revolution`, s "
+        yield "| over the constant speed |\n|---|---|---|---|---|\n"
+        for step in ("90 deg", "45 deg"):
+            samplers = f'ablation.sampler=[{{ use = "minimax", max_step = "{step}" }}]'
+            changes = [*FAST_SPINDLE, f"sampler.max_step={step}", samplers]
+            times = {}
+            for _ in range(self.chosen.rounds):
+                folder = self.fresh("planning")
+                sets = [word for change in changes for word in ("--set", change)]
+                self.turnpath("ablate", RECIPES / "astigmatic-50mm.toml", *sets, "-o", folder)
+                for run in json.loads((folder / "ablation.json").read_text())["runs"]:
+                    chain = run["chain"]["sampler"], run["chain"]["spindle"]
+                    times.setdefault(chain, []).append(run["planning_time_s"])
+            least = {chain: min(found) for chain, found in times.items()}
+            for sampler in ("atpg", "minimax"):
+                constant, changing = (least[sampler, spindle]
+                                      for spindle in ("constant", "per-revolution"))
+                yield f"| `{sampler}`, {step} | {constant:.2f} "
+                yield f"| {constant / least['atpg', 'constant']:.1f} "
+                yield f"| {changing:.2f} | {changing / constant:.1f} |\n"
+
     def dynamic(self):
         """A plugin's strategies over the built-in ones."""
         words = ["run", EQUAL_ANGLE, "--threads", "1", "--no-report"]
@@ -264,7 +298,7 @@ def main():
     arguments.add_argument("--rounds", type=int, default=3)
     arguments.add_argument("--before", type=Path, help="an older program, timed beside this one")
     arguments.add_argument("--long", action="store_true")
-    parts = ["against_scripts", "threads", "scaling", "commands", "dynamic"]
+    parts = ["against_scripts", "threads", "scaling", "commands", "planning", "dynamic"]
     arguments.add_argument("--only", nargs="*", choices=parts)
     chosen = arguments.parse_args()
     bench = Bench(chosen)

@@ -18,11 +18,11 @@ use crate::{Path, Result, Revolutions};
 const COARSEST: f64 = 367.0;
 /// Number of samples in a batch.
 const BATCH: usize = 256;
-/// The same of the first batch on a grid, which may turn out too coarse with the first step.
+/// The same where no sample of a grid is known. The grid may turn out too coarse with the first step.
 const FIRST_BATCH: usize = 32;
 /// Number of cells that are estimated together.
 const CELLS: usize = 96;
-/// The same of the first cells on a grid.
+/// The same where no sample of a grid is known.
 const FIRST_CELLS: usize = 16;
 /// In one of so many cells a sample is evaluated to see whether its estimate holds.
 const CHECKED: usize = 8;
@@ -199,19 +199,25 @@ impl<'a> Samples<'a> {
         Ok(())
     }
 
+    /// The first number where no sample of the grid is known, else the other one.
+    fn first_or(&self, first: usize, later: usize) -> usize {
+        match self.fourth.is_empty() {
+            true => first,
+            false => later,
+        }
+    }
+
     /// The next batch, all of it exact.
     fn load(&mut self) -> Result<()> {
         let from = self.first + self.fourth.len();
-        let mut to = from + BATCH;
-        if self.is_pointwise {
-            let count = if self.fourth.is_empty() {
-                FIRST_BATCH
-            } else {
-                BATCH
-            };
-            let behind_block = self.at_or_before(self.block.end) + 2;
-            to = (from + count).min(behind_block).max(from + 1);
-        }
+        let behind_block = self.at_or_before(self.block.end) + 2;
+        let to = match self.is_pointwise {
+            // A sample depends on its batch, so the batch stays as it is.
+            false => from + BATCH,
+            true => (from + self.first_or(FIRST_BATCH, BATCH))
+                .min(behind_block)
+                .max(from + 1),
+        };
         let exact = self.fourths(from..to)?;
         self.fourth.extend(exact.into_iter().map(Estimate::exact));
         Ok(())
@@ -221,12 +227,9 @@ impl<'a> Samples<'a> {
     fn load_cells(&mut self) -> Result<()> {
         let first_cell = (self.first + self.fourth.len()) / STRIDE;
         let whole = self.at_or_before(self.block.end) / STRIDE;
-        let count = if self.fourth.is_empty() {
-            FIRST_CELLS
-        } else {
-            CELLS
-        };
-        let end = (first_cell + count).min(whole + 2).max(first_cell + 1);
+        let end = (first_cell + self.first_or(FIRST_CELLS, CELLS))
+            .min(whole + 2)
+            .max(first_cell + 1);
         self.load_corners(first_cell.saturating_sub(REACH), (end + REACH).min(whole))?;
         let mut evaluated = Vec::new();
         for cell in first_cell..end {

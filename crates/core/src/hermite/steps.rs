@@ -114,7 +114,8 @@ impl SamplerPlan for Steps {
 }
 
 impl Steps {
-    /// The nodes of `block`. `None` as soon as an estimate does not hold, so that all samples have to be evaluated.
+    /// The nodes of `block`. `None` after the first step of which an estimate does not hold: then all samples have
+    /// to be evaluated.
     fn walk(
         &self,
         path: &Path<'_>,
