@@ -4,7 +4,7 @@
 
 TURNPATH is the program, CHAIN the example that makes and writes a path without measuring it, BARE the
 program without a strategy inside, and PLUGINS a folder with all strategies as plugins. Every time is
-processor time, user and system, of one run in one thread; runs that are compared alternate, and the
+processor time, user and system, of one run in one thread, or of its planning as an ablation says it; runs that are compared alternate, and the
 fastest of each counts. `--long` adds a path of 10⁸ points. Writes the section between the marks.
 """
 

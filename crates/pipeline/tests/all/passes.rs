@@ -8,7 +8,9 @@ use std::sync::{Arc, Mutex};
 use crate::common::solvers::{Area, Exact, Spline};
 use crate::common::{MemorySink, Task, even, inward};
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
-use turnpath_core::{Dependence, Nodes, Result, Velocities, VelocitySolver};
+use turnpath_core::{
+    Dependence, NodeList, Nodes, Path, Result, Revolutions, SamplerPlan, Velocities, VelocitySolver,
+};
 use turnpath_pipeline::{
     DraftSink, LeadLimits, LeadSettings, Observer, Outcome, PipelineError, RunError,
     SilentObserver, Sink, Stage,
@@ -162,6 +164,48 @@ fn a_path_that_holds_is_made_and_played_once() {
     };
     // A block of 64 revolutions each time.
     assert_eq!([calls(false), calls(true)], [4, 4]);
+}
+
+/// Eight even steps a revolution, and the starts of the blocks for which they were asked.
+#[derive(Clone, Default)]
+struct BlockStarts(Arc<Mutex<Vec<u32>>>);
+
+impl SamplerPlan for BlockStarts {
+    fn place(&self, _: &Path<'_>, block: Revolutions, nodes: &mut NodeList) -> Result<()> {
+        // The host asks for single revolutions before it knows how long its blocks are.
+        if block.end - block.start > 1.0 {
+            self.0.lock().unwrap().push(block.start as u32);
+        }
+        let steps = (8.0 * (block.end - block.start)).ceil() as u32;
+        let places = (0..steps).map(|k| block.start + 0.125 * f64::from(k));
+        places
+            .filter(|n| *n < block.end)
+            .for_each(|n| nodes.push(n));
+        Ok(())
+    }
+}
+
+/// Blocks of a batch need nodes of the batches before and behind.
+#[test]
+fn a_block_of_nodes_is_placed_once_with_and_without_refinement() {
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let one_thread = one_thread.unwrap();
+    for refined in [false, true] {
+        let starts = BlockStarts::default();
+        let task = Task {
+            sampler: Arc::new(starts.clone()),
+            velocity: Arc::new(Spline { overlap: 64 }),
+            feed: inward(1280.0),
+            refined,
+            ..Task::default()
+        };
+        let (_, _, stages) = one_thread.install(|| run(&task));
+        assert_eq!(stages.len() > 2, refined, "{stages:?}");
+        let mut asked = starts.0.lock().unwrap().clone();
+        asked.sort_unstable();
+        let blocks: Vec<u32> = (0..20).map(|block| 64 * block).collect();
+        assert_eq!(asked, blocks, "refined: {refined}");
+    }
 }
 
 /// The figures of a path from its blocks, by a meter that sees them once.
