@@ -123,6 +123,13 @@ impl NodeList {
         }
         self.n.splice(..count, [n]);
     }
+
+    /// The same nodes so many revolutions on.
+    #[must_use]
+    pub fn turned_on(mut self, revolutions: f64) -> Self {
+        self.n.iter_mut().for_each(|n| *n += revolutions);
+        self
+    }
 }
 
 impl Extend<f64> for NodeList {

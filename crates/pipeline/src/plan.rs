@@ -76,6 +76,8 @@ pub struct Plan<'a> {
     sampler_states: Vec<Vec<f64>>,
     /// The nodes of each block while they are held; empty while they are not.
     held: Vec<HeldNodes>,
+    /// Whose nodes each block of a sample has, whole revolutions on; empty where each has its own.
+    repeated: Vec<usize>,
 }
 
 impl<'a> Plan<'a> {
@@ -112,6 +114,7 @@ impl<'a> Plan<'a> {
             sampler,
             sampler_states: Vec::new(),
             held: Vec::new(),
+            repeated: Vec::new(),
         };
         plan.divide(observer)?;
         Ok(plan)
@@ -166,15 +169,23 @@ impl<'a> Plan<'a> {
     }
 
     /// Divides the path into small blocks, of which a sample is taken. Those of a sequential sampler
-    /// stay, as it has run over them already, and so do blocks whose nodes are held.
-    pub fn divide_for_sample(&mut self) {
+    /// stay, as it has run over them already, and so do blocks whose nodes are held. Gives whether the
+    /// sampler is yet to be asked for all nodes.
+    pub fn divide_for_sample(&mut self) -> bool {
         if self.sampler.dependence() == Dependence::Sequential || self.holds_nodes() {
-            return;
+            return false;
         }
         while self.block > 1.0 && 0.5 * self.block * self.density >= SAMPLED_BLOCK {
             self.block *= 0.5;
         }
         self.hold_nodes();
+        true
+    }
+
+    /// Gives each block the nodes of the block that is named for it, whole revolutions on. The sampler is
+    /// then asked for the nodes of these blocks alone.
+    pub fn repeat_nodes(&mut self, of: Vec<usize>) {
+        self.repeated = of;
     }
 
     /// Divides the path into blocks, and learns the states of a sequential sampler.
@@ -281,6 +292,17 @@ impl<'a> Plan<'a> {
 
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
     pub fn sample(&self, index: usize) -> Result<NodeList> {
+        let of = self.repeated.get(index).copied().unwrap_or(index);
+        let nodes = self.own_nodes(of)?;
+        let turns = self.revolutions(index).start - self.revolutions(of).start;
+        Ok(if of == index {
+            nodes
+        } else {
+            nodes.turned_on(turns)
+        })
+    }
+
+    fn own_nodes(&self, index: usize) -> Result<NodeList> {
         match self.held.get(index) {
             Some(held) => held.get_or_place(|| self.place(index)),
             None => self.place(index),

@@ -54,6 +54,7 @@ pub fn refine(
 ) -> Result<Vec<Depths>> {
     let mut refinement = Refinement::new(plan);
     refinement.play_round(1, plan, batch, chosen, observer)?;
+    refinement.count_others();
     refinement.finish(plan, batch, chosen, observer)
 }
 
@@ -71,6 +72,15 @@ impl Refinement {
     pub fn take(&mut self, block: usize, nodes: usize, states: Vec<SegmentState>) {
         self.counts[block] = nodes;
         self.states[block] = states;
+    }
+
+    /// Lets a block that was not played have as many nodes as the one before it.
+    fn count_others(&mut self) {
+        for (index, states) in self.states.iter().enumerate().skip(1) {
+            if states.is_empty() {
+                self.counts[index] = self.counts[index - 1];
+            }
+        }
     }
 
     /// Plays blocks back.
@@ -159,19 +169,18 @@ fn reach(dependence: Dependence, round: u32) -> usize {
     }
 }
 
-/// Spreads halvings forward and backward along the path, over block borders.
+/// Spreads halvings forward and backward along the path, over the borders of blocks that were played.
 fn spread(states: &mut [Vec<SegmentState>], reach: usize) {
-    let mut halving = Halving::default();
-    for state in states.iter_mut().flatten() {
-        halving = halving.onto(state, reach);
-    }
-    halving = Halving::default();
-    for state in states
-        .iter_mut()
-        .rev()
-        .flat_map(|block| block.iter_mut().rev())
-    {
-        halving = halving.onto(state, reach);
+    let played = states.split_mut(|block| block.is_empty());
+    for run in played {
+        let forward = run.iter_mut().flatten();
+        forward.fold(Halving::default(), |halving, state| {
+            halving.onto(state, reach)
+        });
+        let backward = run.iter_mut().flatten().rev();
+        backward.fold(Halving::default(), |halving, state| {
+            halving.onto(state, reach)
+        });
     }
 }
 
@@ -313,6 +322,18 @@ mod tests {
         let mut states = vec![vec![Near, Calm], vec![Near, Calm, Beyond]];
         spread(&mut states, 3);
         assert_eq!(states, [vec![Near, Calm], vec![Reached, Calm, Beyond]]);
+    }
+
+    /// A sample has blocks here and there.
+    #[test]
+    fn a_halving_does_not_spread_over_blocks_that_were_not_played() {
+        use SegmentState::{Beyond, Near, Reached};
+        let mut states = vec![vec![Near], vec![Beyond], vec![], vec![Near], vec![Near]];
+        spread(&mut states, 4);
+        assert_eq!(
+            states,
+            [vec![Reached], vec![Beyond], vec![], vec![Near], vec![Near]]
+        );
     }
 
     #[test]

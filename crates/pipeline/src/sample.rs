@@ -65,9 +65,13 @@ pub fn sample_path(
     let mut plan = schedule::plan(chain, preparation, observer)?;
     plan.time_steps = options.time_steps;
     let whole_block = plan.block();
-    plan.divide_for_sample();
+    let is_unplaced = plan.divide_for_sample();
     let are_cut = plan.block() < whole_block;
     let strata = strata(plan.blocks());
+    if is_unplaced {
+        let chosen_for = |stratum: &Stratum| vec![stratum.chosen; stratum.end - stratum.first];
+        plan.repeat_nodes(strata.iter().flat_map(chosen_for).collect());
+    }
     let chosen: Vec<usize> = strata.iter().map(|stratum| stratum.chosen).collect();
     let depths = match options.refine {
         true => refine(&plan, SAMPLED_BLOCKS, &chosen, observer)?,

@@ -1,5 +1,7 @@
 //! Planes of best fit through neighbours, weighted, for places that lie side by side.
 
+use std::collections::VecDeque;
+
 use turnpath_plugin::registers::{Loop, in_widest};
 
 use crate::blocks::Blocks;
@@ -19,116 +21,116 @@ pub struct Planes<'a> {
     blocks: &'a Blocks,
     along_x: &'a Gaussian,
     along_y: &'a Gaussian,
-    /// Room for the rows around places.
-    window: Vec<Line>,
+    /// The row of the first line.
+    top: usize,
+    /// The rows of blocks that count at the places that were looked at last.
+    lines: VecDeque<Line>,
 }
 
-/// A row of the blocks around places, from the farthest block that counts on the left to that on the right. A
-/// block that is a hole, or that is not there, has no share.
+/// A row of blocks. On both sides go on, for all that is looked at around places, blocks that are not there. These
+/// and holes have no share.
 struct Line {
-    /// The row's weight.
-    weight: f64,
     /// The share of each block's points that have a number.
     share: Vec<f64>,
     /// Where the middle of each block's numbers lies, from the block's own middle on.
     x: Vec<f64>,
-    /// The same, from the row of the places on.
+    /// The same along y.
     y: Vec<f64>,
     /// The mean of each block.
     value: Vec<f64>,
 }
 
 impl Line {
-    fn blank(width: usize) -> Self {
-        let numbers = || vec![0.0; width];
-        Self {
-            weight: 0.0,
-            share: numbers(),
-            x: numbers(),
-            y: numbers(),
-            value: numbers(),
+    fn of(blocks: &Blocks, row: usize, reach: usize) -> Self {
+        let means = &blocks.means;
+        let width = means.columns + 2 * reach + PLACES;
+        let [mut share, mut x, mut y, mut value] = [(); 4].map(|()| vec![0.0; width]);
+        for column in 0..means.columns {
+            let (place, at) = (row * means.columns + column, reach + column);
+            if !means.values[place].is_nan() {
+                let middle = blocks.middle(place);
+                (share[at], x[at], y[at]) = (middle.share, middle.x, middle.y);
+                value[at] = means.values[place];
+            }
         }
+        Self { share, x, y, value }
     }
 }
 
 impl<'a> Planes<'a> {
     /// Planes whose neighbours count with these weights along x and along y.
     pub fn new(blocks: &'a Blocks, along_x: &'a Gaussian, along_y: &'a Gaussian) -> Self {
-        let lines = 0..=2 * along_y.reach;
-        let width = PLACES + 2 * along_x.reach;
         Self {
             blocks,
             along_x,
             along_y,
-            window: lines.map(|_| Line::blank(width)).collect(),
+            top: 0,
+            lines: VecDeque::new(),
         }
     }
 
     /// The heights, at a place and at those behind it in its row, of the planes that fit their neighbours best.
+    /// It takes least time to go from row to row downwards.
     pub fn heights(&mut self, column: usize, row: usize) -> Numbers {
-        let count = self.look_around(column, row);
+        self.move_to(row);
         in_widest(Fit {
-            along_x: self.along_x,
-            window: &self.window[..count],
+            planes: self,
+            column,
+            row,
         })
     }
 
-    /// Puts the blocks around places into the window, and gives the number of its rows.
-    fn look_around(&mut self, column: usize, row: usize) -> usize {
-        let Self {
-            blocks,
-            along_x,
-            along_y,
-            window,
-        } = self;
-        let sheet = &blocks.means;
-        let top = row.saturating_sub(along_y.reach);
-        let rows = top..(row + along_y.reach + 1).min(sheet.rows);
-        let count = rows.len();
-        for (other, line) in rows.zip(window) {
-            line.weight = along_y.at(row, other);
-            for step in 0..line.share.len() {
-                let place = (column + step).checked_sub(along_x.reach);
-                let place = place.filter(|place| *place < sheet.columns);
-                let place = place.map(|place| other * sheet.columns + place);
-                let known = place.filter(|place| !sheet.values[*place].is_nan());
-                let (mut share, mut x, mut y, mut value) = (0.0, 0.0, 0.0, 0.0);
-                if let Some(place) = known {
-                    let middle = blocks.middle(place);
-                    (share, x, value) = (middle.share, middle.x, sheet.values[place]);
-                    y = other as f64 - row as f64 + middle.y;
-                }
-                (line.share[step], line.x[step]) = (share, x);
-                (line.y[step], line.value[step]) = (y, value);
-            }
+    /// Takes up the lines that count at a row, and drops the others.
+    fn move_to(&mut self, row: usize) {
+        let top = row.saturating_sub(self.along_y.reach);
+        let end = (row + self.along_y.reach + 1).min(self.blocks.means.rows);
+        let kept = self.top..=self.top + self.lines.len();
+        match kept.contains(&top) {
+            true => drop(self.lines.drain(..top - self.top)),
+            false => self.lines.clear(),
         }
-        count
+        self.top = top;
+        self.lines.truncate(end - top);
+        for row in top + self.lines.len()..end {
+            let line = Line::of(self.blocks, row, self.along_x.reach);
+            self.lines.push_back(line);
+        }
     }
 }
 
-/// The loop that fits planes to a window.
+/// The loop that fits planes around places.
 struct Fit<'a> {
-    along_x: &'a Gaussian,
-    window: &'a [Line],
+    planes: &'a Planes<'a>,
+    column: usize,
+    row: usize,
 }
 
-impl Loop for Fit<'_> {
+impl<'a> Loop for Fit<'a> {
     type Output = Numbers;
 
     #[inline(always)]
     fn call(self) -> Numbers {
-        let Self { along_x, window } = self;
+        let Self {
+            planes,
+            column,
+            row,
+        } = self;
+        let (along_x, along_y) = (planes.along_x, planes.along_y);
+        let around = column..column + PLACES + 2 * along_x.reach;
+        let rows = planes.top..;
         // Weights, and weights times x, y, x², xy, y²; then heights, and heights times x, y.
         let (mut w, mut h) = ([[0.0; PLACES]; 6], [[0.0; PLACES]; 3]);
-        for line in window {
-            let places = line.share.windows(PLACES).zip(line.x.windows(PLACES));
-            let heights = line.y.windows(PLACES).zip(line.value.windows(PLACES));
+        for (other, line) in rows.zip(&planes.lines) {
+            let (of_row, down) = (along_y.at(row, other), other as f64 - row as f64);
+            let around = |numbers: &'a [f64]| numbers[around.clone()].windows(PLACES);
+            let places = around(&line.share).zip(around(&line.x));
+            let heights = around(&line.y).zip(around(&line.value));
             for (step, ((share, x), (y, value))) in places.zip(heights).enumerate() {
                 let of_column = along_x.at(along_x.reach, step);
                 let right = step as f64 - along_x.reach as f64;
                 for i in 0..PLACES {
-                    let (x, y) = (right + x[i], y[i]);
-                    let weight = share[i] * line.weight * of_column;
+                    let (x, y) = (right + x[i], down + y[i]);
+                    let weight = share[i] * of_row * of_column;
                     for (sum, term) in w.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
                         sum[i] += weight * term;
                     }

@@ -8,7 +8,7 @@ use std::ops::Range;
 use turnpath_plugin::registers::{Loop, in_widest};
 
 use crate::differences::{Differences, REACH};
-use crate::plate_edge::{AtEdge, runs};
+use crate::plate_edge::{EdgeStrips, runs};
 
 /// Most steps of the gradients at each resolution. The coarse sheets leave only short waves to the
 /// finer ones, and these need few.
@@ -95,50 +95,53 @@ impl Plate {
             false => STEPS,
         };
         let mut asked = Asked::of(self, unknown);
-        let mut forces = vec![0.0; values.len()];
+        let runs = runs(unknown.iter().copied());
+        let [mut forces, mut residual, mut over, mut direction] =
+            [(); 4].map(|()| vec![0.0; values.len()]);
         self.put_forces(values, &mut asked, &mut forces);
-        let mut residual: Vec<f64> = unknown.iter().map(|place| -forces[*place]).collect();
-        let over: Vec<f64> = unknown
-            .iter()
-            .map(|place| 1.0 / self.differences.stiffness(*place))
-            .collect();
-        let mut direction = vec![0.0; values.len()];
-        let square = |residual: &[f64]| -> f64 {
-            let terms = residual.iter().zip(&over);
-            terms
-                .map(|(residual, over)| residual * residual * over)
-                .sum()
-        };
-        let mut now = square(&residual);
-        let last = now * SMALLEST_RESIDUAL * SMALLEST_RESIDUAL;
-        for ((place, residual), over) in unknown.iter().zip(&residual).zip(&over) {
-            direction[*place] = residual * over;
+        for place in unknown {
+            residual[*place] = -forces[*place];
+            over[*place] = 1.0 / self.differences.stiffness(*place);
+            direction[*place] = residual[*place] * over[*place];
         }
+        let mut now = sum_over(&runs, |place| {
+            residual[place] * residual[place] * over[place]
+        });
+        let last = now * SMALLEST_RESIDUAL * SMALLEST_RESIDUAL;
         for _ in 0..steps {
             if now <= last || now == 0.0 {
                 return;
             }
-            let mut work = 0.0;
             self.put_forces(&direction, &mut asked, &mut forces);
-            for place in unknown {
-                work += direction[*place] * forces[*place];
-            }
+            let work = sum_over(&runs, |place| direction[place] * forces[place]);
             if work <= 0.0 {
                 return;
             }
             let step = now / work;
-            for (place, residual) in unknown.iter().zip(&mut residual) {
-                values[*place] += step * direction[*place];
-                *residual -= step * forces[*place];
-            }
             let before = now;
-            now = square(&residual);
+            for run in &runs {
+                for place in run.clone() {
+                    values[place] += step * direction[place];
+                    residual[place] -= step * forces[place];
+                }
+            }
+            now = sum_over(&runs, |place| {
+                residual[place] * residual[place] * over[place]
+            });
             let kept = now / before;
-            for ((place, residual), over) in unknown.iter().zip(&residual).zip(&over) {
-                direction[*place] = residual * over + kept * direction[*place];
+            for run in &runs {
+                for place in run.clone() {
+                    direction[place] = residual[place] * over[place] + kept * direction[place];
+                }
             }
         }
     }
+}
+
+/// The sum of terms of places, in their order.
+fn sum_over(runs: &[Range<usize>], term: impl Fn(usize) -> f64) -> f64 {
+    let terms = runs.iter().cloned().flatten().map(term);
+    terms.fold(0.0, |sum, term| sum + term)
 }
 
 /// Numbers of which forces are asked.
@@ -146,7 +149,7 @@ struct Asked {
     /// Neighbours in a row. All differences that contain them lie within the sheet.
     inside: Vec<Range<usize>>,
     /// The others.
-    at_edge: AtEdge,
+    at_edge: EdgeStrips,
 }
 
 impl Asked {
@@ -162,7 +165,7 @@ impl Asked {
         Self {
             // Between two rows lie places at the edge, so a run ends with its row.
             inside: runs(inside),
-            at_edge: AtEdge::of(&plate.differences, at_edge),
+            at_edge: EdgeStrips::of(&plate.differences, &at_edge),
         }
     }
 }
@@ -190,14 +193,18 @@ impl Loop for PutForces<'_> {
             forces,
         } = self;
         for run in &asked.inside {
-            let mut groups = forces[run.clone()].chunks_exact_mut(TOGETHER);
-            let mut place = run.start;
-            for group in &mut groups {
-                group.copy_from_slice(&plate.force_inside::<TOGETHER>(values, place));
-                place += TOGETHER;
-            }
-            for (force, place) in groups.into_remainder().iter_mut().zip(place..) {
-                [*force] = plate.force_inside::<1>(values, place);
+            let starts = run.clone().step_by(TOGETHER);
+            for (group, place) in forces[run.clone()].chunks_mut(TOGETHER).zip(starts) {
+                // A group goes on behind its run, if the sheet does.
+                let last = place + REACH * (plate.differences.columns + 1);
+                if last + TOGETHER <= values.len() {
+                    let together = plate.force_inside::<TOGETHER>(values, place);
+                    group.copy_from_slice(&together[..group.len()]);
+                    continue;
+                }
+                for (force, place) in group.iter_mut().zip(place..) {
+                    [*force] = plate.force_inside::<1>(values, place);
+                }
             }
         }
         asked.at_edge.put(values, forces);
