@@ -21,6 +21,9 @@ const SHARPER: f64 = 1.5;
 const HALVINGS: usize = 20;
 /// Angles that are smaller than this are rounding, rad.
 const LEAST_ANGLE: f64 = 1e-9;
+/// A stretch is looked at from this part on of the growth that it needs. What is missing is far more than
+/// rounding.
+const ROUNDING: f64 = 0.99;
 
 /// The sharpest crease among radial sections that is sharper than `curvature`, 1/mm, by its mean
 /// curvature over a short stretch. Each section has so many stretches. A seam has one of about a
@@ -37,7 +40,10 @@ pub fn sharpest(
         let theta = TAU * number as f64 / SECTIONS as f64;
         section.set(theta, (0..=stretches).map(|k| at(region, k, stretches)));
         section.evaluate(cut)?;
-        for stretch in section.stretches().filter(|one| is_sharper(one, from)) {
+        let may_be = |ends: &[End; 2]| may_be_sharper(ends, from);
+        let stretches = section.stretches().filter(may_be);
+        let stretches = stretches.map(|ends| ends.map(|end| end.point()));
+        for stretch in stretches.filter(|one| is_sharper(one, from)) {
             let (value, rho) = close_in(cut, theta, stretch)?;
             if sharpest.is_none_or(|known| value > known.value) {
                 sharpest = Some(Extreme { value, theta, rho });
@@ -53,6 +59,14 @@ fn at(region: RadialRange, k: usize, stretches: usize) -> f64 {
     region.inner + part * (region.outer - region.inner)
 }
 
+/// Whether a stretch may be [sharper](is_sharper). The angle of a slope grows by no more than the slope, and
+/// the chord is no shorter than the stretch, so that nearly no stretch needs its angles.
+fn may_be_sharper([from, to]: &[End; 2], curvature: f64) -> bool {
+    let growth = to.slope - from.slope;
+    let least = LEAST_ANGLE.max(curvature * (to.rho - from.rho));
+    growth > ROUNDING * least
+}
+
 fn is_sharper(stretch: &[Point; 2], curvature: f64) -> bool {
     stretch[1].angle - stretch[0].angle > LEAST_ANGLE && mean_curvature(stretch) > curvature
 }
@@ -65,7 +79,7 @@ fn close_in(cut: Cut<'_>, theta: f64, mut stretch: [Point; 2]) -> Result<(f64, f
     for _ in 0..HALVINGS {
         section.set(theta, [middle(&stretch)]);
         section.evaluate(cut)?;
-        let Some(between) = section.points().next() else {
+        let Some(between) = section.ends().next().map(|end| end.point()) else {
             break;
         };
         let halves = [[stretch[0], between], [between, stretch[1]]];
@@ -84,6 +98,25 @@ fn close_in(cut: Cut<'_>, theta: f64, mut stretch: [Point; 2]) -> Result<(f64, f
 fn mean_curvature([from, to]: &[Point; 2]) -> f64 {
     let chord = Scalar::hypot(to.rho - from.rho, to.height - from.height);
     (to.angle - from.angle) / chord
+}
+
+/// An end of a stretch.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    rho: f64,
+    height: f64,
+    /// The section's slope.
+    slope: f64,
+}
+
+impl End {
+    fn point(&self) -> Point {
+        Point {
+            rho: self.rho,
+            height: self.height,
+            angle: Scalar::atan(self.slope),
+        }
+    }
 }
 
 /// A point of a section.
@@ -132,21 +165,21 @@ impl Section {
         cut.surface.gradient(&self.x, &self.y, out)
     }
 
-    fn points(&self) -> impl Iterator<Item = Point> {
+    fn ends(&self) -> impl Iterator<Item = End> {
         let (sin, cos) = self.sin_cos;
         let slopes = self.zx.iter().zip(&self.zy);
         let places = self.rho.iter().zip(&self.z).zip(slopes);
-        places.map(move |((rho, height), (zx, zy))| Point {
+        places.map(move |((rho, height), (zx, zy))| End {
             rho: *rho,
             height: *height,
-            angle: Scalar::atan(zx * cos + zy * sin),
+            slope: zx * cos + zy * sin,
         })
     }
 
-    fn stretches(&self) -> impl Iterator<Item = [Point; 2]> {
-        let mut points = self.points();
-        let first = points.next();
-        points.scan(first, |last, to| Some([last.replace(to)?, to]))
+    fn stretches(&self) -> impl Iterator<Item = [End; 2]> {
+        self.ends()
+            .zip(self.ends().skip(1))
+            .map(|(from, to)| [from, to])
     }
 }
 
