@@ -17,11 +17,25 @@ use crate::{Chain, PipelineError, Result};
 /// it does to the part.
 const STRAIGHT: f64 = 1e6;
 
-/// The largest curvature within some radii of contact. Larger noses than one that fits touch all that it
-/// touches, and so their trials need not look there again.
+/// What trials of noses have found.
 struct KnownCurvature {
+    /// The radii that the largest nose touches that is known to fit. Larger noses touch all of them, and so
+    /// their trials need not look there again.
     range: RadialRange,
+    /// The largest curvature there.
     largest: Extreme,
+    /// The most curved place that the last nose touched that did not fit.
+    too_hollow: Option<Extreme>,
+}
+
+impl KnownCurvature {
+    /// The known place in a region where a nose of this radius does not fit. A search of the region would find
+    /// the same place or one like it, and is spared.
+    fn refuses(&self, radius: f64, region: RadialRange) -> Option<Extreme> {
+        let is_there = |place: &Extreme| (region.inner..=region.outer).contains(&place.rho);
+        let too_hollow = self.too_hollow.filter(is_there);
+        too_hollow.filter(|place| !fits(radius, place))
+    }
 }
 
 /// A part, its surface and its compensator, on which noses of any radius are tried.
@@ -61,6 +75,7 @@ impl<'a> Fit<'a> {
         let mut known = KnownCurvature {
             range: self.whole_part(),
             largest: on_part,
+            too_hollow: None,
         };
         largest_that_fits(on_part, most, |radius| {
             let tool = Tool {
@@ -83,6 +98,9 @@ impl<'a> Fit<'a> {
     fn largest_curvature(&self, tool: Tool, known: &mut KnownCurvature) -> Result<Extreme> {
         let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
         let region = contact_range(self.chain, &locus, &tool, self.range(tool)?)?;
+        if let Some(too_hollow) = known.refuses(tool.nose_radius, region) {
+            return Ok(too_hollow);
+        }
         let cut = Cut {
             surface: self.surface.as_ref(),
             tool: &tool,
@@ -99,16 +117,14 @@ impl<'a> Fit<'a> {
             Some(outside) if outside.value > known.largest.value => outside,
             Some(_) => known.largest,
         };
-        let known_range = known.range;
-        let they_meet = region.inner <= known_range.outer && known_range.inner <= region.outer;
-        if they_meet && fits(tool.nose_radius, &largest) {
-            *known = KnownCurvature {
-                range: RadialRange {
-                    inner: known_range.inner.min(region.inner),
-                    outer: known_range.outer.max(region.outer),
-                },
-                largest,
+        if !fits(tool.nose_radius, &largest) {
+            known.too_hollow = Some(largest);
+        } else if region.inner <= known.range.outer && known.range.inner <= region.outer {
+            known.range = RadialRange {
+                inner: known.range.inner.min(region.inner),
+                outer: known.range.outer.max(region.outer),
             };
+            known.largest = largest;
         }
         Ok(largest)
     }
