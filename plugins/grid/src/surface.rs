@@ -248,10 +248,11 @@ impl SurfaceModel for GridSag {
         let GradientSeries { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
         let spline = &self.spline;
-        match orders.heights.max(orders.slopes) {
-            0 | 1 => in_widest(SlopesAlong::<1> { spline, x, y, out }),
-            2 => in_widest(SlopesAlong::<2> { spline, x, y, out }),
-            _ => in_widest(SlopesAlong::<ORDER> { spline, x, y, out }),
+        match (orders.heights, orders.slopes) {
+            (0..=1, 0..=1) => in_widest(SlopesAlong::<2, 2, 3> { spline, x, y, out }),
+            (0..=2, 0..=2) => in_widest(SlopesAlong::<3, 3, 4> { spline, x, y, out }),
+            (_, 0..=2) => in_widest(SlopesAlong::<5, 3, 5> { spline, x, y, out }),
+            _ => in_widest(SlopesAlong::<5, 5, 6> { spline, x, y, out }),
         }
         Ok(())
     }
@@ -270,8 +271,8 @@ impl SurfaceModel for GridSag {
         same_lengths(x.len(), &[y.len(), z.len()])?;
         let spline = &self.spline;
         match order {
-            0..=2 => in_widest(HeightsAlong::<2> { spline, x, y, z }),
-            _ => in_widest(HeightsAlong::<ORDER> { spline, x, y, z }),
+            0..=2 => in_widest(HeightsAlong::<3> { spline, x, y, z }),
+            _ => in_widest(HeightsAlong::<5> { spline, x, y, z }),
         }
         Ok(())
     }

@@ -1,14 +1,14 @@
 //! The series of the spline along curves.
 //!
-//! All are made through an order `TO` that the caller chooses. A term of order k begins with tᵏ, so
-//! that terms of higher orders add nothing to the coefficients that are asked for. The curves of a group
-//! go side by side.
+//! The caller chooses how many coefficients are made. A term of order k begins with tᵏ, so that terms of higher
+//! orders add nothing to the coefficients that are asked for. The curves of a group go side by side, and each step goes
+//! through a group before the next one begins.
 
-use turnpath_plugin::prelude::{GradientSeries, ORDER, Series};
+use turnpath_plugin::prelude::{GradientSeries, Series};
 use turnpath_plugin::registers::Loop;
 
-use crate::basis::{NO_WEIGHTS, SPLINES, Weights, derivative};
-use crate::spline::{NO_PATCH, Spline, combine, dot};
+use crate::basis::{NO_WEIGHTS, Weights, derivative};
+use crate::spline::{NO_PATCH, Place, Spline, combine, dot};
 
 /// Curves of a group. With more of them, their numbers leave the cache of the first level.
 const GROUP: usize = 8;
@@ -16,19 +16,11 @@ const GROUP: usize = 8;
 /// A number of each curve.
 type Numbers = [f64; GROUP];
 
-/// The derivatives of a spline at places, over their factorials: `terms[b][a]` is that of order a
-/// along x and b along y, in cells.
-type Terms = [[Numbers; SPLINES]; SPLINES];
-
 /// The series of the curves, order by order.
-type Orders = [Numbers; ORDER + 1];
+type Orders<const K: usize> = [Numbers; K];
 
-/// Series before anything is added.
-const NOTHING: Orders = [[0.0; GROUP]; ORDER + 1];
-
-/// The loop that gives curves the series of their heights, through the order `TO`. All slices have one
-/// length.
-pub struct HeightsAlong<'a, const TO: usize> {
+/// The loop that gives curves `K` coefficients of their heights. All slices have one length.
+pub struct HeightsAlong<'a, const K: usize> {
     /// The spline.
     pub spline: &'a Spline,
     /// x(t) of the curves, mm.
@@ -39,24 +31,24 @@ pub struct HeightsAlong<'a, const TO: usize> {
     pub z: &'a mut [Series],
 }
 
-impl<const TO: usize> Loop for HeightsAlong<'_, TO> {
+impl<const K: usize> Loop for HeightsAlong<'_, K> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
         let Self { spline, x, y, z } = self;
+        let [per_x, per_y] = spline.per;
+        let mut room = Room::<K, K>::new();
         let curves = x.chunks(GROUP).zip(y.chunks(GROUP));
         for ((x, y), z) in curves.zip(z.chunks_mut(GROUP)) {
-            let terms = terms::<TO>(spline, x, y);
-            let (of_x, of_y) = (
-                powers::<TO>(x, spline.per[0]),
-                powers::<TO>(y, spline.per[1]),
-            );
-            let mut height = NOTHING;
-            for b in 0..=TO {
-                for a in 0..=TO - b {
-                    let product = product::<TO>(&of_x[a], &of_y[b], a, b);
-                    add::<TO>(&mut height, &terms[b][a], &product, a + b);
+            room.take_terms(spline, x, y);
+            room.of_x = powers(x, per_x);
+            room.of_y = powers(y, per_y);
+            let mut height = [[0.0; GROUP]; K];
+            for b in 0..K {
+                for a in 0..K - b {
+                    let product = room.product(a, b);
+                    add(&mut height, &room.terms[b][a], &product, a + b);
                 }
             }
             put(&height, z);
@@ -64,9 +56,9 @@ impl<const TO: usize> Loop for HeightsAlong<'_, TO> {
     }
 }
 
-/// The loop that gives curves the series of their heights and of both slopes, through the order `TO`. All
-/// slices have one length.
-pub struct SlopesAlong<'a, const TO: usize> {
+/// The loop that gives curves `K` coefficients of their heights and `S` of both slopes, no more than `K`. `N` is
+/// how many orders of derivatives this takes: `K`, and one more than `S`. All slices have one length.
+pub struct SlopesAlong<'a, const K: usize, const S: usize, const N: usize> {
     /// The spline.
     pub spline: &'a Spline,
     /// x(t) of the curves, mm.
@@ -77,7 +69,7 @@ pub struct SlopesAlong<'a, const TO: usize> {
     pub out: GradientSeries<'a>,
 }
 
-impl<const TO: usize> Loop for SlopesAlong<'_, TO> {
+impl<const K: usize, const S: usize, const N: usize> Loop for SlopesAlong<'_, K, S, N> {
     type Output = ();
 
     #[inline(always)]
@@ -85,20 +77,27 @@ impl<const TO: usize> Loop for SlopesAlong<'_, TO> {
         let Self { spline, x, y, out } = self;
         let GradientSeries { z, zx, zy } = out;
         let [per_x, per_y] = spline.per;
+        let mut room = Room::<K, N>::new();
         let curves = x.chunks(GROUP).zip(y.chunks(GROUP));
         let slopes = zx.chunks_mut(GROUP).zip(zy.chunks_mut(GROUP));
         for (((x, y), z), (zx, zy)) in curves.zip(z.chunks_mut(GROUP)).zip(slopes) {
-            let terms = terms::<TO>(spline, x, y);
-            let (of_x, of_y) = (powers::<TO>(x, per_x), powers::<TO>(y, per_y));
-            let [mut height, mut slope_x, mut slope_y] = [NOTHING; 3];
-            for b in 0..=TO {
-                for a in 0..=TO - b {
-                    let product = product::<TO>(&of_x[a], &of_y[b], a, b);
-                    let along_x = terms[b][a + 1].map(|term| term * (a + 1) as f64 * per_x);
-                    let along_y = terms[b + 1][a].map(|term| term * (b + 1) as f64 * per_y);
-                    add::<TO>(&mut height, &terms[b][a], &product, a + b);
-                    add::<TO>(&mut slope_x, &along_x, &product, a + b);
-                    add::<TO>(&mut slope_y, &along_y, &product, a + b);
+            room.take_terms(spline, x, y);
+            room.of_x = powers(x, per_x);
+            room.of_y = powers(y, per_y);
+            let mut height = [[0.0; GROUP]; K];
+            let [mut slope_x, mut slope_y] = [[[0.0; GROUP]; S]; 2];
+            for b in 0..K {
+                for a in 0..K - b {
+                    let product = room.product(a, b);
+                    add(&mut height, &room.terms[b][a], &product, a + b);
+                    if a + b < S {
+                        let along_x =
+                            room.terms[b][a + 1].map(|term| term * (a + 1) as f64 * per_x);
+                        let along_y =
+                            room.terms[b + 1][a].map(|term| term * (b + 1) as f64 * per_y);
+                        add(&mut slope_x, &along_x, &product, a + b);
+                        add(&mut slope_y, &along_y, &product, a + b);
+                    }
                 }
             }
             put(&height, z);
@@ -108,66 +107,113 @@ impl<const TO: usize> Loop for SlopesAlong<'_, TO> {
     }
 }
 
-/// The terms of heights and of slopes where curves begin, through the order `TO`, and zeros.
-#[inline(always)]
-fn terms<const TO: usize>(spline: &Spline, x: &[Series], y: &[Series]) -> Terms {
-    let mut patch = NO_PATCH;
-    let mut terms = [[[0.0; GROUP]; SPLINES]; SPLINES];
-    for (i, (x, y)) in x.iter().zip(y).enumerate().take(GROUP) {
-        let place = spline.place(x[0], y[0]);
-        let (along_x, along_y) = (orders::<TO>(place.s), orders::<TO>(place.t));
-        let lines = spline.lines(&place, &mut patch);
-        for (b, (terms, of_y)) in terms.iter_mut().zip(&along_y).enumerate().take(TO + 2) {
-            let line = combine(&lines, of_y);
-            for (term, of_x) in terms.iter_mut().zip(&along_x).take(TO + 2 - b) {
-                term[i] = dot(&line, of_x);
+/// What is known of the curves of a group.
+struct Room<const K: usize, const N: usize> {
+    places: [Place; GROUP],
+    /// The splines and their derivatives where each curve begins, along x and along y.
+    along_x: [[Weights; N]; GROUP],
+    along_y: [[Weights; N]; GROUP],
+    /// The rows, weighted by the derivatives along y.
+    lines: [[Weights; N]; GROUP],
+    /// The derivatives of the spline where curves begin, over their factorials: `terms[b][a]` is that of
+    /// order a along x and b along y, in cells.
+    terms: [[Numbers; N]; N],
+    /// The powers of what each coordinate moves from its start.
+    of_x: [Orders<K>; K],
+    of_y: [Orders<K>; K],
+}
+
+impl<const K: usize, const N: usize> Room<K, N> {
+    #[inline(always)]
+    fn new() -> Self {
+        Self {
+            places: [Place::default(); GROUP],
+            along_x: [[NO_WEIGHTS; N]; GROUP],
+            along_y: [[NO_WEIGHTS; N]; GROUP],
+            lines: [[NO_WEIGHTS; N]; GROUP],
+            terms: [[[0.0; GROUP]; N]; N],
+            of_x: [[[0.0; GROUP]; K]; K],
+            of_y: [[[0.0; GROUP]; K]; K],
+        }
+    }
+
+    /// Takes the terms where curves begin.
+    #[inline(always)]
+    fn take_terms(&mut self, spline: &Spline, x: &[Series], y: &[Series]) {
+        let mut patch = NO_PATCH;
+        let count = x.len().min(GROUP);
+        for (place, (x, y)) in self.places.iter_mut().zip(x.iter().zip(y)) {
+            *place = spline.place(x[0], y[0]);
+        }
+        let places = &self.places[..count];
+        for (along_x, place) in self.along_x.iter_mut().zip(places) {
+            *along_x = orders(place.s);
+        }
+        for (along_y, place) in self.along_y.iter_mut().zip(places) {
+            *along_y = orders(place.t);
+        }
+        for ((lines, along_y), place) in self.lines.iter_mut().zip(&self.along_y).zip(places) {
+            let at = spline.lines(place, &mut patch);
+            for (line, along_y) in lines.iter_mut().zip(along_y) {
+                *line = combine(&at, along_y);
+            }
+        }
+        for b in 0..N {
+            for a in 0..N - b {
+                let curves = self.lines.iter().zip(&self.along_x).take(count);
+                for (term, (lines, along_x)) in self.terms[b][a].iter_mut().zip(curves) {
+                    *term = dot(&lines[b], &along_x[a]);
+                }
             }
         }
     }
-    terms
+
+    /// The products of powers that begin with tᵃ and tᵇ.
+    #[inline(always)]
+    fn product(&self, a: usize, b: usize) -> Orders<K> {
+        product(&self.of_x[a], &self.of_y[b], a, b)
+    }
 }
 
-/// The six splines and their derivatives through the order `TO` + 1, and zeros.
+/// The six splines and their derivatives.
 #[inline(always)]
-fn orders<const TO: usize>(t: f64) -> [Weights; SPLINES] {
-    let mut orders = [NO_WEIGHTS; SPLINES];
-    orders[0] = derivative::<0>(t);
-    orders[1] = derivative::<1>(t);
-    orders[2] = derivative::<2>(t);
-    if TO > 1 {
-        orders[3] = derivative::<3>(t);
-    }
-    if TO > 2 {
-        orders[4] = derivative::<4>(t);
-        orders[5] = derivative::<5>(t);
-    }
-    orders
+fn orders<const N: usize>(t: f64) -> [Weights; N] {
+    let all = [
+        derivative::<0>(t),
+        derivative::<1>(t),
+        derivative::<2>(t),
+        derivative::<3>(t),
+        derivative::<4>(t),
+        derivative::<5>(t),
+    ];
+    all.first_chunk().copied().unwrap_or([NO_WEIGHTS; N])
 }
 
 /// The powers of what a coordinate moves from its start, in cells. The power of order k begins with
 /// tᵏ.
 #[inline(always)]
-fn powers<const TO: usize>(curves: &[Series], over: f64) -> [Orders; ORDER + 1] {
-    let mut step = NOTHING;
+fn powers<const K: usize>(curves: &[Series], over: f64) -> [Orders<K>; K] {
+    let mut step = [[0.0; GROUP]; K];
     for (i, curve) in curves.iter().enumerate().take(GROUP) {
         for (step, c) in step.iter_mut().zip(curve).skip(1) {
             step[i] = c * over;
         }
     }
-    let mut powers = [NOTHING; ORDER + 1];
+    let mut powers = [[[0.0; GROUP]; K]; K];
     powers[0][0] = [1.0; GROUP];
-    for order in 1..=TO {
-        powers[order] = product::<TO>(&powers[order - 1], &step, order - 1, 1);
+    for order in 1..K {
+        powers[order] = product(&powers[order - 1], &step, order - 1, 1);
     }
     powers
 }
 
 /// The products of two series that begin with tᵃ and tᵇ.
 #[inline(always)]
-fn product<const TO: usize>(one: &Orders, other: &Orders, a: usize, b: usize) -> Orders {
-    let mut product = NOTHING;
-    for i in a..=TO {
-        for j in b..=TO - i.min(TO) {
+fn product<const K: usize>(one: &Orders<K>, other: &Orders<K>, a: usize, b: usize) -> Orders<K> {
+    let last = K - 1;
+    let mut product = [[0.0; GROUP]; K];
+    for i in a..=last {
+        for j in b..=last - i.min(last) {
             for (k, sum) in product[i + j].iter_mut().enumerate() {
                 *sum += one[i][k] * other[j][k];
             }
@@ -178,20 +224,25 @@ fn product<const TO: usize>(one: &Orders, other: &Orders, a: usize, b: usize) ->
 
 /// Adds the multiples of a product, which begins with the order `first`.
 #[inline(always)]
-fn add<const TO: usize>(sum: &mut Orders, factors: &Numbers, product: &Orders, first: usize) {
-    for (sum, product) in sum.iter_mut().zip(product).take(TO + 1).skip(first) {
+fn add<const K: usize, const L: usize>(
+    sum: &mut Orders<L>,
+    factors: &Numbers,
+    product: &Orders<K>,
+    first: usize,
+) {
+    for (sum, product) in sum.iter_mut().zip(product).skip(first) {
         for ((sum, factor), product) in sum.iter_mut().zip(factors).zip(product) {
             *sum += factor * product;
         }
     }
 }
 
-/// Puts the numbers of the curves into their series.
+/// Puts the numbers of the curves into their series. What was not asked for is zero.
 #[inline(always)]
-fn put(orders: &Orders, curves: &mut [Series]) {
+fn put<const K: usize>(orders: &Orders<K>, curves: &mut [Series]) {
     for (i, curve) in curves.iter_mut().enumerate().take(GROUP) {
-        for (coefficient, numbers) in curve.iter_mut().zip(orders) {
-            *coefficient = numbers[i];
+        for (order, coefficient) in curve.iter_mut().enumerate() {
+            *coefficient = orders.get(order).map_or(0.0, |numbers| numbers[i]);
         }
     }
 }
@@ -199,22 +250,26 @@ fn put(orders: &Orders, curves: &mut [Series]) {
 #[cfg(test)]
 impl Spline {
     /// The series of the height and of both slopes along one curve.
-    pub fn series<const TO: usize>(&self, x: &Series, y: &Series) -> [Series; 3] {
-        let [mut z, mut zx, mut zy] = [[[f64::NAN; ORDER + 1]]; 3];
+    pub fn series<const K: usize, const S: usize, const N: usize>(
+        &self,
+        x: &Series,
+        y: &Series,
+    ) -> [Series; 3] {
+        let [mut z, mut zx, mut zy] = [[Series::default()]; 3];
         let out = GradientSeries {
             z: &mut z,
             zx: &mut zx,
             zy: &mut zy,
         };
         let (spline, x, y) = (self, &[*x], &[*y]);
-        SlopesAlong::<TO> { spline, x, y, out }.call();
+        SlopesAlong::<K, S, N> { spline, x, y, out }.call();
         [z[0], zx[0], zy[0]]
     }
 
     /// The series of the height along one curve.
-    pub fn height_series<const TO: usize>(&self, x: &Series, y: &Series) -> Series {
-        let mut z = [[f64::NAN; ORDER + 1]];
-        HeightsAlong::<TO> {
+    pub fn height_series<const K: usize>(&self, x: &Series, y: &Series) -> Series {
+        let mut z = [Series::default()];
+        HeightsAlong::<K> {
             spline: self,
             x: &[*x],
             y: &[*y],
