@@ -167,3 +167,27 @@ fn is_finite(extreme: &Extreme) -> bool {
     let all = [extreme.value, extreme.theta, extreme.rho];
     all.iter().all(|number| number.is_finite())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_nose_is_refused_where_it_touches_a_place_that_is_known_to_be_too_hollow() {
+        let place = |value, rho| Extreme {
+            value,
+            theta: 1.0,
+            rho,
+        };
+        let to = |outer| RadialRange { inner: 0.0, outer };
+        let known = KnownCurvature {
+            range: to(4.0),
+            largest: place(0.1, 3.0),
+            too_hollow: Some(place(0.5, 9.0)),
+        };
+        assert_eq!(known.refuses(2.1, to(10.0)), Some(place(0.5, 9.0)));
+        // It fits there, or it does not reach the place.
+        assert_eq!(known.refuses(1.9, to(10.0)), None);
+        assert_eq!(known.refuses(2.1, to(8.0)), None);
+    }
+}

@@ -10,4 +10,5 @@ mod offsets;
 mod passes;
 mod refinement;
 mod runs;
+mod samples;
 mod spindles;

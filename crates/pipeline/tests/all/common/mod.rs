@@ -17,8 +17,9 @@ use turnpath_core::{
     StrategyError, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{
-    Chain, DraftSink, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions, PipelineError,
-    RunError, SilentObserver, Sink, make_unmeasured, prepare, run,
+    Chain, DraftSink, Estimate, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions,
+    PathSample, PipelineError, RunError, SilentObserver, Sink, make_unmeasured, prepare, run,
+    sample_path,
 };
 use turnpath_verify::FirstTouch;
 
@@ -344,6 +345,13 @@ impl Task {
         )
         .expect("a path");
         sink.points
+    }
+
+    /// The estimate of the path, and a sample of it.
+    pub fn sample(&self) -> (Estimate, PathSample) {
+        let chain = self.chain();
+        let preparation = prepare(&chain, self.spec()).expect("a tool that fits");
+        sample_path(&chain, &preparation, self.options()).expect("a sample")
     }
 
     /// The first touch of the task's tool.
