@@ -110,7 +110,8 @@ pub trait Compensator: Send + Sync {
     /// where it is not within `known`: that of
     /// [`curvature_outside`](interference::curvature_outside). `None` from a compensator that looks at
     /// whole regions alone. The search for the largest nose that fits asks for it once a trial. `known`
-    /// is then all that smaller noses have touched, so the curvature must not depend on the tool.
+    /// is then all that smaller noses have touched, and a place that it finds for one nose counts for smaller
+    /// ones that touch it too. So the curvature must not depend on the tool.
     fn curvature_outside(
         &self,
         cut: Cut<'_>,

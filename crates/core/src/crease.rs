@@ -21,8 +21,8 @@ const SHARPER: f64 = 1.5;
 const HALVINGS: usize = 20;
 /// Angles that are smaller than this are rounding, rad.
 const LEAST_ANGLE: f64 = 1e-9;
-/// A stretch is looked at from this part on of the growth that it needs. What is missing is far more than
-/// rounding.
+/// A stretch whose slope grows by less than this part of what a crease needs has none. The rest is far more
+/// than rounding.
 const ROUNDING: f64 = 0.99;
 
 /// The sharpest crease among radial sections that is sharper than `curvature`, 1/mm, by its mean
@@ -41,9 +41,9 @@ pub fn sharpest(
         section.set(theta, (0..=stretches).map(|k| at(region, k, stretches)));
         section.evaluate(cut)?;
         let may_be = |ends: &[End; 2]| may_be_sharper(ends, from);
-        let stretches = section.stretches().filter(may_be);
-        let stretches = stretches.map(|ends| ends.map(|end| end.point()));
-        for stretch in stretches.filter(|one| is_sharper(one, from)) {
+        let measured = section.stretches().filter(may_be);
+        let measured = measured.map(|ends| ends.map(|end| end.point()));
+        for stretch in measured.filter(|one| is_sharper(one, from)) {
             let (value, rho) = close_in(cut, theta, stretch)?;
             if sharpest.is_none_or(|known| value > known.value) {
                 sharpest = Some(Extreme { value, theta, rho });
@@ -239,6 +239,28 @@ mod tests {
             found.value > 0.9 * own && found.value < 1.001 * own,
             "{found:?}"
         );
+    }
+
+    /// On flat and on steep walls, with hollows of all curvatures.
+    #[test]
+    fn a_stretch_that_is_left_out_is_not_sharper() {
+        let point = |rho: f64, slope: f64| End {
+            rho,
+            height: rho * slope,
+            slope,
+        };
+        let mut left_out = 0;
+        for slope in [-30.0, -1.0, -0.01, 0.0, 0.3, 4.0, 100.0] {
+            for growth in [0.0, 1e-10, 1.1e-9, 1e-4, 0.02, 0.5, 3.0] {
+                for curvature in [0.0, 0.01, 0.8, 2.0, 50.0] {
+                    let ends = [point(0.5, slope), point(0.51, slope + growth)];
+                    let is_sharper = is_sharper(&ends.map(|end| end.point()), curvature);
+                    assert!(may_be_sharper(&ends, curvature) || !is_sharper);
+                    left_out += usize::from(!may_be_sharper(&ends, curvature));
+                }
+            }
+        }
+        assert!(left_out > 50, "{left_out}");
     }
 
     #[test]

@@ -193,4 +193,15 @@ mod tests {
         assert!(NodeList::from_columns(vec![1.0], vec![0.0; 2], vec![0.0; 2]).is_none());
         assert!(NodeList::from_columns(vec![1.0], Vec::new(), Vec::new()).is_some());
     }
+
+    #[test]
+    fn nodes_that_are_turned_on_keep_their_steps_and_their_offsets() {
+        let mut nodes = NodeList::default();
+        nodes.push_off(3.25, OFF);
+        nodes.push(3.5);
+        let on = nodes.clone().turned_on(-3.0);
+        assert_eq!(on.revolutions(), [0.25, 0.5]);
+        assert_eq!(dz(&on), dz(&nodes));
+        assert_eq!(on.turned_on(3.0), nodes);
+    }
 }

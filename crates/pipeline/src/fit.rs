@@ -31,7 +31,7 @@ struct KnownCurvature {
 impl KnownCurvature {
     /// The known place in a region where a nose of this radius does not fit. A search of the region would find
     /// the same place or one like it, and is spared.
-    fn refuses(&self, radius: f64, region: RadialRange) -> Option<Extreme> {
+    fn place_that_refuses(&self, radius: f64, region: RadialRange) -> Option<Extreme> {
         let is_there = |place: &Extreme| (region.inner..=region.outer).contains(&place.rho);
         let too_hollow = self.too_hollow.filter(is_there);
         too_hollow.filter(|place| !fits(radius, place))
@@ -98,7 +98,7 @@ impl<'a> Fit<'a> {
     fn largest_curvature(&self, tool: Tool, known: &mut KnownCurvature) -> Result<Extreme> {
         let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
         let region = contact_range(self.chain, &locus, &tool, self.range(tool)?)?;
-        if let Some(too_hollow) = known.refuses(tool.nose_radius, region) {
+        if let Some(too_hollow) = known.place_that_refuses(tool.nose_radius, region) {
             return Ok(too_hollow);
         }
         let cut = Cut {
@@ -185,9 +185,12 @@ mod tests {
             largest: place(0.1, 3.0),
             too_hollow: Some(place(0.5, 9.0)),
         };
-        assert_eq!(known.refuses(2.1, to(10.0)), Some(place(0.5, 9.0)));
+        assert_eq!(
+            known.place_that_refuses(2.1, to(10.0)),
+            Some(place(0.5, 9.0))
+        );
         // It fits there, or it does not reach the place.
-        assert_eq!(known.refuses(1.9, to(10.0)), None);
-        assert_eq!(known.refuses(2.1, to(8.0)), None);
+        assert_eq!(known.place_that_refuses(1.9, to(10.0)), None);
+        assert_eq!(known.place_that_refuses(2.1, to(8.0)), None);
     }
 }

@@ -169,23 +169,29 @@ impl<'a> Plan<'a> {
     }
 
     /// Divides the path into small blocks, of which a sample is taken. Those of a sequential sampler
-    /// stay, as it has run over them already, and so do blocks whose nodes are held. Gives whether the
-    /// sampler is yet to be asked for all nodes.
-    pub fn divide_for_sample(&mut self) -> bool {
-        if self.sampler.dependence() == Dependence::Sequential || self.holds_nodes() {
-            return false;
+    /// stay, as it has run over them already, and so do blocks whose nodes are held.
+    pub fn divide_for_sample(&mut self) {
+        if self.is_placed() {
+            return;
         }
         while self.block > 1.0 && 0.5 * self.block * self.density >= SAMPLED_BLOCK {
             self.block *= 0.5;
         }
-        self.hold_nodes();
-        true
     }
 
-    /// Gives each block the nodes of the block that is named for it, whole revolutions on. The sampler is
-    /// then asked for the nodes of these blocks alone.
+    /// Gives each block the nodes of the block that is named for it, whole revolutions on, if the sampler
+    /// begins afresh there. Blocks whose nodes are placed already keep their own.
     pub fn repeat_nodes(&mut self, of: Vec<usize>) {
-        self.repeated = of;
+        if !self.is_placed() {
+            self.repeated = of;
+            // A sample asks for few blocks, however many the path has.
+            self.held = (0..self.blocks()).map(|_| HeldNodes::default()).collect();
+        }
+    }
+
+    /// Whether the sampler has placed all nodes.
+    fn is_placed(&self) -> bool {
+        self.sampler.dependence() == Dependence::Sequential || self.holds_nodes()
     }
 
     /// Divides the path into blocks, and learns the states of a sequential sampler.
@@ -193,6 +199,7 @@ impl<'a> Plan<'a> {
         self.block = BLOCK;
         self.block = self.comfortable_block()?;
         self.sampler_states = Vec::new();
+        self.repeated = Vec::new();
         if self.sampler.dependence() == Dependence::Sequential {
             let mut state = Vec::new();
             for index in 0..self.blocks() {
@@ -292,14 +299,16 @@ impl<'a> Plan<'a> {
 
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
     pub fn sample(&self, index: usize) -> Result<NodeList> {
-        let of = self.repeated.get(index).copied().unwrap_or(index);
-        let nodes = self.own_nodes(of)?;
-        let turns = self.revolutions(index).start - self.revolutions(of).start;
-        Ok(if of == index {
-            nodes
-        } else {
-            nodes.turned_on(turns)
-        })
+        let Some(of) = self.repeated.get(index).filter(|of| **of != index) else {
+            return self.own_nodes(index);
+        };
+        let nodes = self.own_nodes(*of)?;
+        let [start, own_start] = [*of, index].map(|index| self.revolutions(index).start);
+        let first = nodes.revolutions().first();
+        match first.is_some_and(|first| first - start < CLOSEST_NODES) {
+            true => Ok(nodes.turned_on(own_start - start)),
+            false => self.own_nodes(index),
+        }
     }
 
     fn own_nodes(&self, index: usize) -> Result<NodeList> {

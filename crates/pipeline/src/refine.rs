@@ -41,6 +41,8 @@ pub struct Refinement {
     states: Vec<Vec<SegmentState>>,
     /// The nodes of each block.
     counts: Vec<usize>,
+    /// Whether each block was played.
+    played: Vec<bool>,
 }
 
 /// Halves segments until the played error is below the aim everywhere, or no segment can be halved
@@ -65,6 +67,7 @@ impl Refinement {
             depths: vec![Depths::new(); plan.blocks()],
             states: vec![Vec::new(); plan.blocks()],
             counts: vec![0; plan.blocks()],
+            played: vec![false; plan.blocks()],
         }
     }
 
@@ -72,12 +75,13 @@ impl Refinement {
     pub fn take(&mut self, block: usize, nodes: usize, states: Vec<SegmentState>) {
         self.counts[block] = nodes;
         self.states[block] = states;
+        self.played[block] = true;
     }
 
     /// Lets a block that was not played have as many nodes as the one before it.
     fn count_others(&mut self) {
-        for (index, states) in self.states.iter().enumerate().skip(1) {
-            if states.is_empty() {
+        for (index, is_played) in self.played.iter().enumerate().skip(1) {
+            if !is_played {
                 self.counts[index] = self.counts[index - 1];
             }
         }
@@ -102,7 +106,7 @@ impl Refinement {
     ) -> Result<Vec<Depths>> {
         let dependence = plan.chain.velocity.strategy.dependence();
         for round in 1..=MOST_ROUNDS {
-            spread(&mut self.states, reach(dependence, round));
+            spread(&mut self.states, &self.played, reach(dependence, round));
             let halved = halve(&mut self.depths, &mut self.states);
             if halved.is_empty() || round == MOST_ROUNDS {
                 break;
@@ -170,17 +174,14 @@ fn reach(dependence: Dependence, round: u32) -> usize {
 }
 
 /// Spreads halvings forward and backward along the path, over the borders of blocks that were played.
-fn spread(states: &mut [Vec<SegmentState>], reach: usize) {
-    let played = states.split_mut(|block| block.is_empty());
-    for run in played {
-        let forward = run.iter_mut().flatten();
-        forward.fold(Halving::default(), |halving, state| {
-            halving.onto(state, reach)
-        });
-        let backward = run.iter_mut().flatten().rev();
-        backward.fold(Halving::default(), |halving, state| {
-            halving.onto(state, reach)
-        });
+fn spread(states: &mut [Vec<SegmentState>], played: &[bool], reach: usize) {
+    let mut halving = Halving::default();
+    for (block, is_played) in states.iter_mut().zip(played) {
+        halving = halving.onto_block(block.iter_mut(), *is_played, reach);
+    }
+    halving = Halving::default();
+    for (block, is_played) in states.iter_mut().zip(played).rev() {
+        halving = halving.onto_block(block.iter_mut().rev(), *is_played, reach);
     }
 }
 
@@ -194,6 +195,19 @@ struct Halving {
 }
 
 impl Halving {
+    /// Goes over the segments of a block, in their order. It ends at a block that was not played.
+    fn onto_block<'a>(
+        self,
+        block: impl Iterator<Item = &'a mut SegmentState>,
+        is_played: bool,
+        reach: usize,
+    ) -> Self {
+        match is_played {
+            true => block.fold(self, |halving, state| halving.onto(state, reach)),
+            false => Self::default(),
+        }
+    }
+
     /// Goes on to the next segment.
     fn onto(self, state: &mut SegmentState, reach: usize) -> Self {
         let left = self.left.saturating_sub(1);
@@ -303,7 +317,7 @@ mod tests {
     fn a_halving_spreads_over_neighbours_that_are_near_the_aim() {
         use SegmentState::{Beyond, Calm, Near, Reached};
         let mut states = vec![vec![Near, Calm, Near, Near], vec![Near, Beyond, Near, Calm]];
-        spread(&mut states, 2);
+        spread(&mut states, &[true; 2], 2);
         assert_eq!(states[0], [Near, Calm, Near, Reached]);
         assert_eq!(states[1], [Reached, Beyond, Reached, Calm]);
         let mut depths = vec![Depths::new(); 2];
@@ -316,11 +330,11 @@ mod tests {
     fn a_halving_spreads_over_one_calm_segment_at_a_time() {
         use SegmentState::{Beyond, Calm, Near, Reached};
         let mut states = vec![vec![Beyond, Calm, Near, Calm, Near, Calm, Calm, Near]];
-        spread(&mut states, 16);
+        spread(&mut states, &[true], 16);
         let expected = [Beyond, Calm, Reached, Calm, Reached, Calm, Calm, Near];
         assert_eq!(states[0], expected);
         let mut states = vec![vec![Near, Calm], vec![Near, Calm, Beyond]];
-        spread(&mut states, 3);
+        spread(&mut states, &[true; 2], 3);
         assert_eq!(states, [vec![Near, Calm], vec![Reached, Calm, Beyond]]);
     }
 
@@ -329,7 +343,7 @@ mod tests {
     fn a_halving_does_not_spread_over_blocks_that_were_not_played() {
         use SegmentState::{Beyond, Near, Reached};
         let mut states = vec![vec![Near], vec![Beyond], vec![], vec![Near], vec![Near]];
-        spread(&mut states, 4);
+        spread(&mut states, &[true, true, false, true, true], 4);
         assert_eq!(
             states,
             [vec![Reached], vec![Beyond], vec![], vec![Near], vec![Near]]

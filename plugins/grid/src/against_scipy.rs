@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 use turnpath_maps::Map;
-use turnpath_plugin::prelude::{Gradients, ORDER, Series, SurfaceModel};
+use turnpath_plugin::prelude::{Gradients, Series, SurfaceModel};
 
 use crate::sheet::Sheet;
 use crate::spline::Spline;
@@ -128,6 +128,13 @@ fn series_along_curves_are_those_of_50_digits() {
                     assert_eq!(low[..=to], all[..=to]);
                 }
             }
+            // All heights, with slopes through order 2.
+            let low = spline.series::<5, 3, 5>(&x, &y);
+            assert_eq!(low[0], z);
+            assert_eq!(
+                [low[1][..3].to_vec(), low[2][..3].to_vec()],
+                [zx[..3].to_vec(), zy[..3].to_vec()]
+            );
             assert_eq!(spline.height_series::<3>(&x, &y)[..3], z[..3]);
             for (key, found) in [("z", z), ("zx", zx), ("zy", zy)] {
                 for (order, wanted) in of(curve, key).into_iter().enumerate() {

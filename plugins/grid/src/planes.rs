@@ -27,8 +27,8 @@ pub struct Planes<'a> {
     lines: VecDeque<Line>,
 }
 
-/// A row of blocks. On both sides go on, for all that is looked at around places, blocks that are not there. These
-/// and holes have no share.
+/// A row of blocks, longer on both sides by what may be looked at around a place. Blocks that are holes, or that
+/// are not there, have no share.
 struct Line {
     /// The share of each block's points that have a number.
     share: Vec<f64>,
@@ -84,10 +84,10 @@ impl<'a> Planes<'a> {
     fn move_to(&mut self, row: usize) {
         let top = row.saturating_sub(self.along_y.reach);
         let end = (row + self.along_y.reach + 1).min(self.blocks.means.rows);
-        let kept = self.top..=self.top + self.lines.len();
-        match kept.contains(&top) {
-            true => drop(self.lines.drain(..top - self.top)),
-            false => self.lines.clear(),
+        if (self.top..=self.top + self.lines.len()).contains(&top) {
+            self.lines.drain(..top - self.top);
+        } else {
+            self.lines.clear();
         }
         self.top = top;
         self.lines.truncate(end - top);
@@ -201,7 +201,8 @@ mod tests {
             let [along_x, along_y] = [4.2, 3.0].map(Gaussian::new);
             let mut planes = Planes::new(&blocks, &along_x, &along_y);
             let Sheet { columns, rows, .. } = blocks.means;
-            for row in 0..rows {
+            // Downwards, and then from anywhere to anywhere.
+            for row in (0..rows).chain([3, 3, rows - 1, 0, rows / 2, 1]) {
                 for column in 0..columns {
                     let together = planes.heights(column, row);
                     for (found, column) in together.iter().zip(column..columns) {

@@ -74,7 +74,7 @@ struct Strip {
 }
 
 impl Strip {
-    /// All strips of a sheet; a small sheet is one.
+    /// All strips of a sheet. A sheet with fewer lines than a strip is one; the sheets of maps have more.
     fn all(sheet: &Differences) -> Vec<Self> {
         let Differences { columns, rows, .. } = *sheet;
         if columns.min(rows) < LINES {
@@ -169,24 +169,25 @@ impl Strip {
 /// One kind of differences in a strip.
 struct Kind {
     weight: f64,
-    /// The numbers of a difference, from its first one on.
+    /// The numbers of a difference, from the place of its first one on.
     terms: Vec<Term>,
-    /// Numbers of a difference along a line, less one.
-    behind: usize,
+    /// How far the last number of a difference lies behind its first one along a line.
+    length: usize,
     /// The lines on which differences begin that count.
     begins: Range<usize>,
     /// The differences that begin on each line, behind [`REACH`] zeros. Zeros follow them.
     differences: Vec<f64>,
     /// Numbers that a line of differences takes.
     stride: usize,
-    /// The differences that contain a number, for each line whose forces are calculated.
+    /// The differences that contain a number, from the number's place along its line on, for each line whose
+    /// forces are calculated.
     counted: Vec<Vec<Term>>,
 }
 
 /// One term of a sum over numbers.
 struct Term {
-    /// How far its number lies behind the first one.
-    behind: usize,
+    /// Where its number lies, from the place of the sum on.
+    offset: usize,
     factor: f64,
 }
 
@@ -218,7 +219,7 @@ impl Kind {
         let begins =
             forced.start.saturating_sub(under)..forced.end.min(lines.saturating_sub(under));
         let terms = numbers().map(|(under, behind, factor)| Term {
-            behind: under * length + behind,
+            offset: under * length + behind,
             factor,
         });
         let counted = |line: usize| {
@@ -226,15 +227,16 @@ impl Kind {
                 let begin = line
                     .checked_sub(under)
                     .filter(|begin| begins.contains(begin))?;
-                let behind = begin * stride + REACH - behind;
-                Some(Term { behind, factor })
+                // The zeros before a line are as many as a difference reaches.
+                let offset = begin * stride + REACH - behind;
+                Some(Term { offset, factor })
             });
             counted.collect()
         };
         Self {
             weight: difference.weight,
             terms: terms.collect(),
-            behind,
+            length: behind,
             differences: vec![0.0; lines * stride + TOGETHER],
             stride,
             counted: forced.clone().map(counted).collect(),
@@ -245,7 +247,7 @@ impl Kind {
     /// Takes all differences from the numbers of the strip. Those that would reach beyond it stay zero.
     #[inline(always)]
     fn take_differences(&mut self, values: &[f64], length: usize) {
-        let count = length.saturating_sub(self.behind);
+        let count = length.saturating_sub(self.length);
         for line in self.begins.clone() {
             let start = line * self.stride + REACH;
             let differences = &mut self.differences[start..start + length + TOGETHER];
@@ -262,8 +264,8 @@ impl Kind {
 #[inline(always)]
 fn products(terms: &[Term], numbers: &[f64], at: usize) -> [f64; TOGETHER] {
     let mut sums = [0.0; TOGETHER];
-    for Term { behind, factor } in terms {
-        for (sum, number) in sums.iter_mut().zip(&numbers[at + behind..][..TOGETHER]) {
+    for Term { offset, factor } in terms {
+        for (sum, number) in sums.iter_mut().zip(&numbers[at + offset..][..TOGETHER]) {
             *sum += factor * number;
         }
     }

@@ -93,6 +93,9 @@ const MOST_MARGIN: usize = 64;
 /// The margin's share of the shorter side of the map.
 const MARGIN_SHARE: usize = 8;
 
+/// The coefficients of a series.
+const ALL: usize = ORDER + 1;
+
 impl Strategy for GridSag {
     const NAME: &'static str = "grid-sag";
     const SUMMARY: &'static str = "a spline of degree 5 through the heights of a map";
@@ -251,8 +254,8 @@ impl SurfaceModel for GridSag {
         match (orders.heights, orders.slopes) {
             (0..=1, 0..=1) => in_widest(SlopesAlong::<2, 2, 3> { spline, x, y, out }),
             (0..=2, 0..=2) => in_widest(SlopesAlong::<3, 3, 4> { spline, x, y, out }),
-            (_, 0..=2) => in_widest(SlopesAlong::<5, 3, 5> { spline, x, y, out }),
-            _ => in_widest(SlopesAlong::<5, 5, 6> { spline, x, y, out }),
+            (_, 0..=2) => in_widest(SlopesAlong::<ALL, 3, ALL> { spline, x, y, out }),
+            _ => in_widest(SlopesAlong::<ALL, ALL, { ALL + 1 }> { spline, x, y, out }),
         }
         Ok(())
     }
@@ -272,7 +275,7 @@ impl SurfaceModel for GridSag {
         let spline = &self.spline;
         match order {
             0..=2 => in_widest(HeightsAlong::<3> { spline, x, y, z }),
-            _ => in_widest(HeightsAlong::<5> { spline, x, y, z }),
+            _ => in_widest(HeightsAlong::<ALL> { spline, x, y, z }),
         }
         Ok(())
     }

@@ -1,13 +1,13 @@
 //! The series of the spline along curves.
 //!
 //! The caller chooses how many coefficients are made. A term of order k begins with tᵏ, so that terms of higher
-//! orders add nothing to the coefficients that are asked for. The curves of a group go side by side, and each step goes
-//! through a group before the next one begins.
+//! orders add nothing to the coefficients that are asked for. The curves of a group go side by side, and each
+//! step goes through a group before the next one begins.
 
 use turnpath_plugin::prelude::{GradientSeries, Series};
 use turnpath_plugin::registers::Loop;
 
-use crate::basis::{NO_WEIGHTS, Weights, derivative};
+use crate::basis::{NO_WEIGHTS, SPLINES, Weights, derivative};
 use crate::spline::{NO_PATCH, Place, Spline, combine, dot};
 
 /// Curves of a group. With more of them, their numbers leave the cache of the first level.
@@ -38,17 +38,17 @@ impl<const K: usize> Loop for HeightsAlong<'_, K> {
     fn call(self) {
         let Self { spline, x, y, z } = self;
         let [per_x, per_y] = spline.per;
-        let mut room = Room::<K, K>::new();
+        let mut group = Curves::<K, K>::new();
         let curves = x.chunks(GROUP).zip(y.chunks(GROUP));
         for ((x, y), z) in curves.zip(z.chunks_mut(GROUP)) {
-            room.take_terms(spline, x, y);
-            room.of_x = powers(x, per_x);
-            room.of_y = powers(y, per_y);
+            group.take_terms(spline, x, y);
+            group.of_x = powers(x, per_x);
+            group.of_y = powers(y, per_y);
             let mut height = [[0.0; GROUP]; K];
             for b in 0..K {
                 for a in 0..K - b {
-                    let product = room.product(a, b);
-                    add(&mut height, &room.terms[b][a], &product, a + b);
+                    let product = group.product(a, b);
+                    add(&mut height, &group.terms[b][a], &product, a + b);
                 }
             }
             put(&height, z);
@@ -56,8 +56,8 @@ impl<const K: usize> Loop for HeightsAlong<'_, K> {
     }
 }
 
-/// The loop that gives curves `K` coefficients of their heights and `S` of both slopes, no more than `K`. `N` is
-/// how many orders of derivatives this takes: `K`, and one more than `S`. All slices have one length.
+/// The loop that gives curves `K` coefficients of their heights, and `S` of both slopes, `S` ≤ `K`. This takes
+/// `N` orders of derivatives: `K` or `S` + 1, whichever is more. All slices have one length.
 pub struct SlopesAlong<'a, const K: usize, const S: usize, const N: usize> {
     /// The spline.
     pub spline: &'a Spline,
@@ -74,27 +74,28 @@ impl<const K: usize, const S: usize, const N: usize> Loop for SlopesAlong<'_, K,
 
     #[inline(always)]
     fn call(self) {
+        const { assert!(S <= K && K <= N && S < N) }
         let Self { spline, x, y, out } = self;
         let GradientSeries { z, zx, zy } = out;
         let [per_x, per_y] = spline.per;
-        let mut room = Room::<K, N>::new();
+        let mut group = Curves::<K, N>::new();
         let curves = x.chunks(GROUP).zip(y.chunks(GROUP));
         let slopes = zx.chunks_mut(GROUP).zip(zy.chunks_mut(GROUP));
         for (((x, y), z), (zx, zy)) in curves.zip(z.chunks_mut(GROUP)).zip(slopes) {
-            room.take_terms(spline, x, y);
-            room.of_x = powers(x, per_x);
-            room.of_y = powers(y, per_y);
+            group.take_terms(spline, x, y);
+            group.of_x = powers(x, per_x);
+            group.of_y = powers(y, per_y);
             let mut height = [[0.0; GROUP]; K];
             let [mut slope_x, mut slope_y] = [[[0.0; GROUP]; S]; 2];
             for b in 0..K {
                 for a in 0..K - b {
-                    let product = room.product(a, b);
-                    add(&mut height, &room.terms[b][a], &product, a + b);
+                    let product = group.product(a, b);
+                    add(&mut height, &group.terms[b][a], &product, a + b);
                     if a + b < S {
                         let along_x =
-                            room.terms[b][a + 1].map(|term| term * (a + 1) as f64 * per_x);
+                            group.terms[b][a + 1].map(|term| term * (a + 1) as f64 * per_x);
                         let along_y =
-                            room.terms[b + 1][a].map(|term| term * (b + 1) as f64 * per_y);
+                            group.terms[b + 1][a].map(|term| term * (b + 1) as f64 * per_y);
                         add(&mut slope_x, &along_x, &product, a + b);
                         add(&mut slope_y, &along_y, &product, a + b);
                     }
@@ -107,8 +108,8 @@ impl<const K: usize, const S: usize, const N: usize> Loop for SlopesAlong<'_, K,
     }
 }
 
-/// What is known of the curves of a group.
-struct Room<const K: usize, const N: usize> {
+/// The curves of a group, and what is known of them.
+struct Curves<const K: usize, const N: usize> {
     places: [Place; GROUP],
     /// The splines and their derivatives where each curve begins, along x and along y.
     along_x: [[Weights; N]; GROUP],
@@ -123,7 +124,7 @@ struct Room<const K: usize, const N: usize> {
     of_y: [Orders<K>; K],
 }
 
-impl<const K: usize, const N: usize> Room<K, N> {
+impl<const K: usize, const N: usize> Curves<K, N> {
     #[inline(always)]
     fn new() -> Self {
         Self {
@@ -178,6 +179,7 @@ impl<const K: usize, const N: usize> Room<K, N> {
 /// The six splines and their derivatives.
 #[inline(always)]
 fn orders<const N: usize>(t: f64) -> [Weights; N] {
+    const { assert!(N <= SPLINES) }
     let all = [
         derivative::<0>(t),
         derivative::<1>(t),
@@ -186,7 +188,7 @@ fn orders<const N: usize>(t: f64) -> [Weights; N] {
         derivative::<4>(t),
         derivative::<5>(t),
     ];
-    all.first_chunk().copied().unwrap_or([NO_WEIGHTS; N])
+    std::array::from_fn(|order| all[order])
 }
 
 /// The powers of what a coordinate moves from its start, in cells. The power of order k begins with
@@ -248,6 +250,9 @@ fn put<const K: usize>(orders: &Orders<K>, curves: &mut [Series]) {
 }
 
 #[cfg(test)]
+use turnpath_plugin::prelude::ORDER;
+
+#[cfg(test)]
 impl Spline {
     /// The series of the height and of both slopes along one curve.
     pub fn series<const K: usize, const S: usize, const N: usize>(
@@ -255,7 +260,7 @@ impl Spline {
         x: &Series,
         y: &Series,
     ) -> [Series; 3] {
-        let [mut z, mut zx, mut zy] = [[Series::default()]; 3];
+        let [mut z, mut zx, mut zy] = [[[f64::NAN; ORDER + 1]]; 3];
         let out = GradientSeries {
             z: &mut z,
             zx: &mut zx,
@@ -268,7 +273,7 @@ impl Spline {
 
     /// The series of the height along one curve.
     pub fn height_series<const K: usize>(&self, x: &Series, y: &Series) -> Series {
-        let mut z = [Series::default()];
+        let mut z = [[f64::NAN; ORDER + 1]];
         HeightsAlong::<K> {
             spline: self,
             x: &[*x],

@@ -5,9 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use crate::common::solvers::{Exact, Spline};
-use crate::common::{Task, even, inward};
+use crate::common::{Nodes as EvenNodes, Task, even, inward};
 use turnpath_core::{
-    Dependence, NodeList, Nodes, Path, Result, Revolutions, SamplerPlan, Velocities, VelocitySolver,
+    Dependence, NodeList, Nodes, Path, Result, Revolutions, Sampler, SamplerPlan, Velocities,
+    VelocitySolver,
 };
 
 /// Revolutions of the path. A block of the sample is one of them.
@@ -68,6 +69,15 @@ impl VelocitySolver for Watched {
     }
 }
 
+/// Even steps that do not begin afresh at whole revolutions.
+fn in_steps_of(length: f64) -> Arc<dyn Sampler> {
+    Arc::new(EvenNodes(move |_: &Path<'_>, block: Revolutions| {
+        let first = (block.start / length).ceil() as u32;
+        let nodes = (first..).map(|k| f64::from(k) * length);
+        nodes.take_while(|n| *n < block.end).collect()
+    }))
+}
+
 fn task(velocity: impl VelocitySolver + 'static, refined: bool) -> Task {
     Task {
         feed: inward(TURNS),
@@ -81,38 +91,61 @@ fn task(velocity: impl VelocitySolver + 'static, refined: bool) -> Task {
 
 #[test]
 fn the_sampler_is_asked_for_the_blocks_of_the_sample_alone() {
-    let counted = Counted::default();
-    let (solver, _) = Watched::from(f64::INFINITY);
-    let task = Task {
-        sampler: Arc::new(counted.clone()),
-        ..task(solver, true)
-    };
-    let (estimate, sample) = task.sample();
-    assert_eq!(sample.blocks.len(), SAMPLED);
-    // The host looks at three revolutions before it knows how long its blocks are.
-    assert_eq!(counted.0.load(Ordering::SeqCst), SAMPLED + 3);
-    assert!((estimate.control_points / (TURNS * STEPS) - 1.0).abs() < 1e-4);
+    for turns in [TURNS, TURNS + 0.4] {
+        let counted = Counted::default();
+        let (solver, _) = Watched::from(f64::INFINITY);
+        let task = Task {
+            sampler: Arc::new(counted.clone()),
+            feed: inward(turns),
+            ..task(solver, true)
+        };
+        let (estimate, sample) = task.sample();
+        assert_eq!(sample.blocks.len(), SAMPLED);
+        // The neighbours of the first and of the last block stand in for them, and the host looks at three
+        // revolutions before it knows how long its blocks are.
+        assert_eq!(counted.0.load(Ordering::SeqCst), SAMPLED + 2 + 3);
+        let ratio = estimate.control_points / (turns * STEPS);
+        assert!((ratio - 1.0).abs() < 1e-4, "{ratio}");
+    }
 }
 
-/// Nodes that are even on the path are even in each window, over all borders of blocks.
-#[test]
-fn a_solver_sees_its_overlap_on_either_side_of_a_block_of_the_sample() {
+#[track_caller]
+fn assert_sees_even_steps(turns: f64, sampler: Arc<dyn Sampler>, step: f64) {
     let (solver, windows) = Watched::from(f64::INFINITY);
-    let (_, sample) = task(solver, false).sample();
+    let task = Task {
+        feed: inward(turns),
+        sampler,
+        ..task(solver, false)
+    };
+    let (estimate, sample) = task.sample();
+    let ratio = estimate.control_points * step / turns;
+    assert!((ratio - 1.0).abs() < 1e-2, "{ratio}");
     let mut windows = windows.lock().unwrap().clone();
     assert_eq!(windows.len(), SAMPLED);
     // Threads come in any order.
     windows.sort_by(|one, other| one[0].total_cmp(&other[0]));
     for (window, block) in windows.iter().zip(&sample.blocks) {
-        for pair in window.windows(2) {
-            assert!((pair[1] - pair[0] - 1.0 / STEPS).abs() < 1e-9, "{pair:?}");
+        let last = window.len() - 2;
+        for (k, pair) in window.windows(2).enumerate() {
+            // The path's last step is what is left.
+            let is_even = (pair[1] - pair[0] - step).abs() < 1e-9;
+            assert!(is_even || (k == last && pair[1] == turns), "{pair:?}");
         }
         let [first, last] = [window.first(), window.last()].map(|t| *t.unwrap());
         let [from, to] = [block.points.t.first(), block.points.t.last()].map(|t| *t.unwrap());
-        let overlap = OVERLAP as f64 / STEPS;
+        let overlap = OVERLAP as f64 * step;
         assert!(first <= (from - overlap).max(0.0) + 1e-9, "{first} {from}");
-        assert!(last >= (to + overlap).min(TURNS) - 1e-9, "{last} {to}");
+        assert!(last >= (to + overlap).min(turns) - 1e-9, "{last} {to}");
     }
+}
+
+/// Nodes that are even on the path are even in each window, over all borders of blocks.
+#[test]
+fn a_solver_sees_its_overlap_on_either_side_of_a_block_of_the_sample() {
+    assert_sees_even_steps(TURNS, even(STEPS), 1.0 / STEPS);
+    assert_sees_even_steps(TURNS + 0.4, even(STEPS), 1.0 / STEPS);
+    assert_sees_even_steps(TURNS, in_steps_of(0.0247), 0.0247);
+    assert_sees_even_steps(TURNS + 0.4, in_steps_of(0.0247), 0.0247);
 }
 
 /// The blocks of a sample lie too far apart to see each other's nodes.
