@@ -40,6 +40,7 @@ mod prepare;
 mod range;
 mod recorder;
 mod refine;
+mod repeated_blocks;
 mod run;
 mod sample;
 mod schedule;

@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use rayon::prelude::*;
 use turnpath_core::{
     Dependence, NodeList, Overrun, Path, Revolutions, SamplerPlan, SpindleLaw, SpiralLaw,
 };
@@ -10,6 +11,8 @@ use turnpath_core::{
 use crate::held_nodes::HeldNodes;
 use crate::node_check::{CLOSEST_NODES, NodeCheck, in_revolutions};
 use crate::observer::{Observer, stop_if_cancelled};
+use crate::order::one_at_a_time;
+use crate::repeated_blocks::RepeatedBlocks;
 use crate::size::check_points;
 use crate::taper::{CutLaw, taper};
 use crate::{Chain, Preparation, Result, beyond, seams, spindle};
@@ -29,6 +32,8 @@ const SAMPLED_BLOCK: f64 = 30.0;
 /// MB. A node on the path takes one, and a node beside it three. The sampler of a longer path is asked
 /// again in every pass.
 const MOST_HELD: f64 = 2e7;
+/// The numbers that a block takes which holds no nodes.
+const NUMBERS_OF_BLOCK: f64 = 11.0;
 /// An overlap that is too large for a velocity solver. A spline needs 64 nodes; a solver that needs
 /// thousands is sequential.
 const MOST_OVERLAP: usize = 10_000;
@@ -76,8 +81,8 @@ pub struct Plan<'a> {
     sampler_states: Vec<Vec<f64>>,
     /// The nodes of each block while they are held; empty while they are not.
     held: Vec<HeldNodes>,
-    /// Whose nodes each block of a sample has, whole revolutions on; empty where each has its own.
-    repeated: Vec<usize>,
+    /// Which blocks of a sample have the nodes of another one; none where each has its own.
+    repeated: Option<RepeatedBlocks>,
 }
 
 impl<'a> Plan<'a> {
@@ -114,7 +119,7 @@ impl<'a> Plan<'a> {
             sampler,
             sampler_states: Vec::new(),
             held: Vec::new(),
-            repeated: Vec::new(),
+            repeated: None,
         };
         plan.divide(observer)?;
         Ok(plan)
@@ -171,7 +176,7 @@ impl<'a> Plan<'a> {
     /// Divides the path into small blocks, of which a sample is taken. Those of a sequential sampler
     /// stay, as it has run over them already, and so do blocks whose nodes are held.
     pub fn divide_for_sample(&mut self) {
-        if self.is_placed() {
+        if self.keeps_its_blocks() {
             return;
         }
         while self.block > 1.0 && 0.5 * self.block * self.density >= SAMPLED_BLOCK {
@@ -179,18 +184,30 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Gives each block the nodes of the block that is named for it, whole revolutions on, if the sampler
-    /// begins afresh there. Blocks whose nodes are placed already keep their own.
-    pub fn repeat_nodes(&mut self, of: Vec<usize>) {
-        if !self.is_placed() {
-            self.repeated = of;
-            // A sample asks for few blocks, however many the path has.
+    /// Holds the nodes of a sample, and gives each block that is not of it the nodes of one that is
+    /// [repeated](RepeatedBlocks), whole revolutions on, if these all begin with a node at their start. Else the
+    /// sampler does not begin afresh at each block, and places all nodes itself.
+    pub fn repeat_nodes(&mut self, blocks: RepeatedBlocks) -> Result<()> {
+        if self.keeps_its_blocks() {
+            return Ok(());
+        }
+        if self.blocks() as f64 * NUMBERS_OF_BLOCK <= MOST_HELD {
             self.held = (0..self.blocks()).map(|_| HeldNodes::default()).collect();
         }
+        let begins_afresh = |index: usize| {
+            let nodes = self.own_nodes(index)?;
+            let first = nodes.revolutions().first();
+            let start = self.revolutions(index).start;
+            Ok(first.is_some_and(|first| first - start < CLOSEST_NODES))
+        };
+        let repeated = blocks.repeated().par_iter();
+        let begin_afresh: Vec<bool> = one_at_a_time(repeated.map(|index| begins_afresh(*index)))?;
+        self.repeated = begin_afresh.into_iter().all(|is| is).then_some(blocks);
+        Ok(())
     }
 
-    /// Whether the sampler has placed all nodes.
-    fn is_placed(&self) -> bool {
+    /// Whether the blocks stay as they are: the sampler has run over them, or their nodes are held.
+    fn keeps_its_blocks(&self) -> bool {
         self.sampler.dependence() == Dependence::Sequential || self.holds_nodes()
     }
 
@@ -199,7 +216,7 @@ impl<'a> Plan<'a> {
         self.block = BLOCK;
         self.block = self.comfortable_block()?;
         self.sampler_states = Vec::new();
-        self.repeated = Vec::new();
+        self.repeated = None;
         if self.sampler.dependence() == Dependence::Sequential {
             let mut state = Vec::new();
             for index in 0..self.blocks() {
@@ -299,16 +316,12 @@ impl<'a> Plan<'a> {
 
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
     pub fn sample(&self, index: usize) -> Result<NodeList> {
-        let Some(of) = self.repeated.get(index).filter(|of| **of != index) else {
+        let source = self.repeated.as_ref().map(|blocks| blocks.source(index));
+        let Some(source) = source.filter(|source| *source != index) else {
             return self.own_nodes(index);
         };
-        let nodes = self.own_nodes(*of)?;
-        let [start, own_start] = [*of, index].map(|index| self.revolutions(index).start);
-        let first = nodes.revolutions().first();
-        match first.is_some_and(|first| first - start < CLOSEST_NODES) {
-            true => Ok(nodes.turned_on(own_start - start)),
-            false => self.own_nodes(index),
-        }
+        let turns = self.revolutions(index).start - self.revolutions(source).start;
+        Ok(self.own_nodes(source)?.turned_on(turns))
     }
 
     fn own_nodes(&self, index: usize) -> Result<NodeList> {

@@ -338,16 +338,31 @@ mod tests {
         assert_eq!(states, [vec![Near, Calm], vec![Reached, Calm, Beyond]]);
     }
 
-    /// A sample has blocks here and there.
+    /// A sample has blocks here and there. A block that was played may have no segment of its own.
     #[test]
-    fn a_halving_does_not_spread_over_blocks_that_were_not_played() {
+    fn a_halving_spreads_over_blocks_that_were_played_alone() {
         use SegmentState::{Beyond, Near, Reached};
-        let mut states = vec![vec![Near], vec![Beyond], vec![], vec![Near], vec![Near]];
-        spread(&mut states, &[true, true, false, true, true], 4);
+        let blocks = [vec![Near], vec![], vec![Beyond], vec![Near], vec![Near]];
+        let mut states = blocks.clone();
+        spread(&mut states, &[true, true, true, false, true], 4);
+        let [_, none, beyond, ..] = blocks.clone();
         assert_eq!(
             states,
-            [vec![Reached], vec![Beyond], vec![], vec![Near], vec![Near]]
+            [vec![Reached], none, beyond, vec![Near], vec![Near]]
         );
+    }
+
+    #[test]
+    fn a_block_that_was_not_played_counts_as_the_one_before_it() {
+        let mut refinement = Refinement {
+            depths: vec![Depths::new(); 5],
+            states: vec![Vec::new(); 5],
+            counts: vec![7, 0, 0, 0, 0],
+            played: vec![true, false, false, false, false],
+        };
+        refinement.take(3, 40, Vec::new());
+        refinement.count_others();
+        assert_eq!(refinement.counts, [7, 7, 7, 40, 40]);
     }
 
     #[test]

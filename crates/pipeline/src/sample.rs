@@ -1,5 +1,6 @@
 //! Some blocks of a path nearly as a run makes them, from which the sizes of its files follow before it is made.
-//! What a velocity solver sees beyond such a block repeats the nodes of the block.
+//! What a velocity solver sees beyond such a block are nodes of the sample, if the sampler begins afresh at each
+//! block.
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
@@ -13,6 +14,7 @@ use crate::options::PathOptions;
 use crate::order::one_at_a_time;
 use crate::plan::Plan;
 use crate::refine::refine;
+use crate::repeated_blocks::RepeatedBlocks;
 use crate::{Chain, Preparation, Result, schedule};
 
 /// About how many blocks are made. The count of points on a revolution changes smoothly along a path,
@@ -70,7 +72,7 @@ pub fn sample_path(
     let are_cut = plan.block() < whole_block;
     let strata = strata(plan.blocks());
     let chosen: Vec<usize> = strata.iter().map(|stratum| stratum.chosen).collect();
-    plan.repeat_nodes(repeated(plan.blocks(), &chosen));
+    plan.repeat_nodes(RepeatedBlocks::of(&chosen, plan.blocks()))?;
     let depths = match options.refine {
         true => refine(&plan, SAMPLED_BLOCKS, &chosen, observer)?,
         false => Vec::new(),
@@ -151,23 +153,6 @@ fn strata(blocks: usize) -> Vec<Stratum> {
     strata
 }
 
-/// The block whose nodes each of so many blocks repeats: the nearest one of those that are chosen. Every sampler
-/// begins afresh in the first block, and the last one may be shorter than the others: their neighbours stand in
-/// for them.
-fn repeated(blocks: usize, chosen: &[usize]) -> Vec<usize> {
-    let last = blocks.saturating_sub(1);
-    let inner = |index: usize| index.clamp(1, last.saturating_sub(1).max(1));
-    let nearest = |index: usize| {
-        let like_all = chosen.iter().map(|of| inner(*of));
-        like_all.min_by_key(|of| of.abs_diff(index))
-    };
-    let of = |index: usize| match chosen.contains(&index) {
-        true => index,
-        false => nearest(index).unwrap_or(index),
-    };
-    (0..blocks).map(of).collect()
-}
-
 /// The points of one block. It has a node, so it has points.
 fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<PathBlock> {
     let blocks = make(plan, index..index + 1, depths, first_state(plan).as_mut())?;
@@ -207,15 +192,6 @@ mod tests {
         assert_eq!(share_of_whole_steps(&[0.0, 1.0, 2.0, 4.0]), 1.0);
         assert_eq!(share_of_whole_steps(&[0.0, 1.0]), 1.0);
         assert_eq!(share_of_whole_steps(&[]), 1.0);
-    }
-
-    #[test]
-    fn each_block_repeats_the_nearest_one_that_is_like_all() {
-        assert_eq!(repeated(9, &[0, 4, 8]), [0, 1, 1, 4, 4, 4, 7, 7, 8]);
-        for blocks in 1..5 {
-            let all: Vec<usize> = (0..blocks).collect();
-            assert_eq!(repeated(blocks, &all), all);
-        }
     }
 
     #[test]

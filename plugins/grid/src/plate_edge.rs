@@ -172,21 +172,21 @@ struct Kind {
     /// The numbers of a difference, from the place of its first one on.
     terms: Vec<Term>,
     /// How far the last number of a difference lies behind its first one along a line.
-    length: usize,
+    span: usize,
     /// The lines on which differences begin that count.
     begins: Range<usize>,
     /// The differences that begin on each line, behind [`REACH`] zeros. Zeros follow them.
     differences: Vec<f64>,
     /// Numbers that a line of differences takes.
     stride: usize,
-    /// The differences that contain a number, from the number's place along its line on, for each line whose
-    /// forces are calculated.
+    /// For each line whose forces are calculated: where the differences lie that contain a number of it, counted
+    /// from the number's place in the line.
     counted: Vec<Vec<Term>>,
 }
 
 /// One term of a sum over numbers.
 struct Term {
-    /// Where its number lies, from the place of the sum on.
+    /// How far its number lies behind the place of the sum.
     offset: usize,
     factor: f64,
 }
@@ -236,7 +236,7 @@ impl Kind {
         Self {
             weight: difference.weight,
             terms: terms.collect(),
-            length: behind,
+            span: behind,
             differences: vec![0.0; lines * stride + TOGETHER],
             stride,
             counted: forced.clone().map(counted).collect(),
@@ -247,7 +247,7 @@ impl Kind {
     /// Takes all differences from the numbers of the strip. Those that would reach beyond it stay zero.
     #[inline(always)]
     fn take_differences(&mut self, values: &[f64], length: usize) {
-        let count = length.saturating_sub(self.length);
+        let count = length.saturating_sub(self.span);
         for line in self.begins.clone() {
             let start = line * self.stride + REACH;
             let differences = &mut self.differences[start..start + length + TOGETHER];

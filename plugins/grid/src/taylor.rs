@@ -250,9 +250,6 @@ fn put<const K: usize>(orders: &Orders<K>, curves: &mut [Series]) {
 }
 
 #[cfg(test)]
-use turnpath_plugin::prelude::ORDER;
-
-#[cfg(test)]
 impl Spline {
     /// The series of the height and of both slopes along one curve.
     pub fn series<const K: usize, const S: usize, const N: usize>(
@@ -260,7 +257,7 @@ impl Spline {
         x: &Series,
         y: &Series,
     ) -> [Series; 3] {
-        let [mut z, mut zx, mut zy] = [[[f64::NAN; ORDER + 1]]; 3];
+        let [mut z, mut zx, mut zy] = [[[f64::NAN; 5]]; 3];
         let out = GradientSeries {
             z: &mut z,
             zx: &mut zx,
@@ -273,7 +270,7 @@ impl Spline {
 
     /// The series of the height along one curve.
     pub fn height_series<const K: usize>(&self, x: &Series, y: &Series) -> Series {
-        let mut z = [[f64::NAN; ORDER + 1]];
+        let mut z = [[f64::NAN; 5]];
         HeightsAlong::<K> {
             spline: self,
             x: &[*x],

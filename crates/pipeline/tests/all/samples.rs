@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use crate::common::solvers::{Exact, Spline};
-use crate::common::{Nodes as EvenNodes, Task, even, inward};
+use crate::common::{Counting, Nodes as EvenNodes, Task, even, inward};
 use turnpath_core::{
     Dependence, NodeList, Nodes, Path, Result, Revolutions, Sampler, SamplerPlan, Velocities,
     VelocitySolver,
@@ -90,7 +90,7 @@ fn task(velocity: impl VelocitySolver + 'static, refined: bool) -> Task {
 }
 
 #[test]
-fn the_sampler_is_asked_for_the_blocks_of_the_sample_alone() {
+fn the_sampler_is_asked_for_the_blocks_of_the_sample_and_for_two_more() {
     for turns in [TURNS, TURNS + 0.4] {
         let counted = Counted::default();
         let (solver, _) = Watched::from(f64::INFINITY);
@@ -127,9 +127,10 @@ fn assert_sees_even_steps(turns: f64, sampler: Arc<dyn Sampler>, step: f64) {
     for (window, block) in windows.iter().zip(&sample.blocks) {
         let last = window.len() - 2;
         for (k, pair) in window.windows(2).enumerate() {
+            let off = pair[1] - pair[0] - step;
             // The path's last step is what is left.
-            let is_even = (pair[1] - pair[0] - step).abs() < 1e-9;
-            assert!(is_even || (k == last && pair[1] == turns), "{pair:?}");
+            let is_rest = k == last && pair[1] == turns && off < 0.0;
+            assert!(is_rest || off.abs() < 1e-9, "{pair:?}");
         }
         let [first, last] = [window.first(), window.last()].map(|t| *t.unwrap());
         let [from, to] = [block.points.t.first(), block.points.t.last()].map(|t| *t.unwrap());
@@ -146,6 +147,21 @@ fn a_solver_sees_its_overlap_on_either_side_of_a_block_of_the_sample() {
     assert_sees_even_steps(TURNS + 0.4, even(STEPS), 1.0 / STEPS);
     assert_sees_even_steps(TURNS, in_steps_of(0.0247), 0.0247);
     assert_sees_even_steps(TURNS + 0.4, in_steps_of(0.0247), 0.0247);
+    // Every seventh revolution begins with a node by chance.
+    assert_sees_even_steps(TURNS, in_steps_of(7.0 / 280.0 * 1.01), 7.0 / 280.0 * 1.01);
+    assert_sees_even_steps(TURNS, in_steps_of(7.0 / 270.0), 7.0 / 270.0);
+}
+
+/// It has run over the path before, and has its nodes where they are.
+#[test]
+fn a_sampler_that_is_asked_in_order_has_its_own_nodes() {
+    let (solver, _) = Watched::from(f64::INFINITY);
+    let task = Task {
+        sampler: Arc::new(Counting { step: 1.0 / 40.5 }),
+        ..task(solver, true)
+    };
+    let ratio = task.sample().0.control_points / (TURNS * 40.5);
+    assert!((ratio - 1.0).abs() < 1e-4, "{ratio}");
 }
 
 /// The blocks of a sample lie too far apart to see each other's nodes.
