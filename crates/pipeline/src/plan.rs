@@ -32,7 +32,7 @@ const SAMPLED_BLOCK: f64 = 30.0;
 /// MB. A node on the path takes one, and a node beside it three. The sampler of a longer path is asked
 /// again in every pass.
 const MOST_HELD: f64 = 2e7;
-/// The numbers that a block takes which holds no nodes.
+/// The memory that a block takes before its nodes are held, in numbers.
 const NUMBERS_OF_BLOCK: f64 = 11.0;
 /// An overlap that is too large for a velocity solver. A spline needs 64 nodes; a solver that needs
 /// thousands is sequential.
@@ -184,9 +184,9 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Holds the nodes of a sample, and gives each block that is not of it the nodes of one that is
-    /// [repeated](RepeatedBlocks), whole revolutions on, if these all begin with a node at their start. Else the
-    /// sampler does not begin afresh at each block, and places all nodes itself.
+    /// Holds the nodes of a sample. The blocks that are not of it get the nodes of
+    /// [repeated blocks](RepeatedBlocks), whole revolutions on, if each repeated block begins with a node at its
+    /// start. Otherwise the sampler does not begin afresh at each block, and places all nodes itself.
     pub fn repeat_nodes(&mut self, blocks: RepeatedBlocks) -> Result<()> {
         if self.keeps_its_blocks() {
             return Ok(());

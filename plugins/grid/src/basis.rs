@@ -76,6 +76,21 @@ pub fn derivative<const ORDER: usize>(t: f64) -> Weights {
     weights
 }
 
+/// The first `N` derivatives of the six splines at t, from order 0 on, each over the factorial of its order.
+#[inline(always)]
+pub fn derivatives<const N: usize>(t: f64) -> [Weights; N] {
+    const { assert!(N <= SPLINES) }
+    let all = [
+        derivative::<0>(t),
+        derivative::<1>(t),
+        derivative::<2>(t),
+        derivative::<3>(t),
+        derivative::<4>(t),
+        derivative::<5>(t),
+    ];
+    std::array::from_fn(|order| all[order])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,14 +121,7 @@ mod tests {
     #[test]
     fn derivatives_are_those_of_the_taylor_series() {
         let (t, step) = (0.3, 0.1);
-        let orders = [
-            derivative::<0>(t),
-            derivative::<1>(t),
-            derivative::<2>(t),
-            derivative::<3>(t),
-            derivative::<4>(t),
-            derivative::<5>(t),
-        ];
+        let orders: [_; SPLINES] = derivatives(t);
         for (m, wanted) in derivative::<0>(t + step).into_iter().enumerate() {
             let found = orders
                 .iter()

@@ -7,7 +7,7 @@
 use turnpath_plugin::prelude::{GradientSeries, Series};
 use turnpath_plugin::registers::Loop;
 
-use crate::basis::{NO_WEIGHTS, SPLINES, Weights, derivative};
+use crate::basis::{NO_WEIGHTS, Weights, derivatives};
 use crate::spline::{NO_PATCH, Place, Spline, combine, dot};
 
 /// Curves of a group. With more of them, their numbers leave the cache of the first level.
@@ -148,10 +148,10 @@ impl<const K: usize, const N: usize> Curves<K, N> {
         }
         let places = &self.places[..count];
         for (along_x, place) in self.along_x.iter_mut().zip(places) {
-            *along_x = orders(place.s);
+            *along_x = derivatives(place.s);
         }
         for (along_y, place) in self.along_y.iter_mut().zip(places) {
-            *along_y = orders(place.t);
+            *along_y = derivatives(place.t);
         }
         for ((lines, along_y), place) in self.lines.iter_mut().zip(&self.along_y).zip(places) {
             let at = spline.lines(place, &mut patch);
@@ -174,21 +174,6 @@ impl<const K: usize, const N: usize> Curves<K, N> {
     fn product(&self, a: usize, b: usize) -> Orders<K> {
         product(&self.of_x[a], &self.of_y[b], a, b)
     }
-}
-
-/// The six splines and their derivatives.
-#[inline(always)]
-fn orders<const N: usize>(t: f64) -> [Weights; N] {
-    const { assert!(N <= SPLINES) }
-    let all = [
-        derivative::<0>(t),
-        derivative::<1>(t),
-        derivative::<2>(t),
-        derivative::<3>(t),
-        derivative::<4>(t),
-        derivative::<5>(t),
-    ];
-    std::array::from_fn(|order| all[order])
 }
 
 /// The powers of what a coordinate moves from its start, in cells. The power of order k begins with
