@@ -272,16 +272,21 @@ impl Locus for ToolLocus {
         let law = CuspFeed::new(residual, radial, &self.tool);
         let (mut large, mut searches) = (Vec::new(), Vec::new());
         for (i, profile) in profile.iter().enumerate() {
-            let (parabola, whole) = (law.parabola(profile), law.feed(profile));
-            feed[i] = whole;
+            let parabola = law.parabola(profile);
+            feed[i] = parabola;
             let gap = law.gap(profile.curvature());
-            if law.needs_circles(gap) && parabola.is_finite() && self.places(radial) {
+            if !law.needs_circles(gap) {
+                continue;
+            }
+            let circles = law.circles(profile);
+            feed[i] = law.joined(gap, parabola, circles);
+            if parabola.is_finite() && self.places(radial) {
                 large.push((i, gap, parabola));
                 searches.push(FeedSearch {
                     theta: theta[i],
                     rho: rho[i],
                     cap: law.cap(profile.slope, gap),
-                    feed: law.circles(profile),
+                    feed: circles,
                 });
             }
         }
