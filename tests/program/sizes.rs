@@ -120,6 +120,8 @@ fn long_the_sizes_of_the_recipes_of_the_documentation_are_right() {
         "toric-40mm",
         "xy-polynomial-20mm",
         "sinusoidal-array-10mm",
+        "surfaces/lenslet-array",
+        "surfaces/forbes-q2d",
     ] {
         let file = format!("{}/../docs/recipes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let recipe = std::fs::read_to_string(file).unwrap();

@@ -56,6 +56,17 @@ pub struct CuspFeed {
     misfit: Misfit,
 }
 
+/// The feeds at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalFeeds {
+    /// 1 − Rκ.
+    pub gap: f64,
+    /// The feed of the parabola, mm.
+    pub parabola: f64,
+    /// The feed of circles, mm, where circles count.
+    pub circles: Option<f64>,
+}
+
 impl CuspFeed {
     /// The feed for cusps of height `residual`, mm, where ρ means `radial`.
     pub fn new(residual: f64, radial: Radial, tool: &Tool) -> Self {
@@ -107,18 +118,31 @@ impl CuspFeed {
         if feed > cap { cap } else { feed }
     }
 
+    /// The feeds from the curvature and the slope at the contact alone.
+    pub fn feeds(&self, profile: &Profile) -> LocalFeeds {
+        let gap = self.gap(profile.curvature());
+        LocalFeeds {
+            gap,
+            parabola: self.parabola(profile),
+            circles: self.needs_circles(gap).then(|| self.circles(profile)),
+        }
+    }
+
     /// The feed from the curvature and the slope at the contact alone, mm.
     pub fn feed(&self, profile: &Profile) -> f64 {
-        let parabola = self.parabola(profile);
-        let gap = self.gap(profile.curvature());
-        match self.needs_circles(gap) {
-            false => parabola,
-            true => self.joined(gap, parabola, self.circles(profile)),
+        self.join(&self.feeds(profile))
+    }
+
+    /// Joins the feeds of a place, mm.
+    pub fn join(&self, feeds: &LocalFeeds) -> f64 {
+        match feeds.circles {
+            None => feeds.parabola,
+            Some(circles) => self.joined(feeds.gap, feeds.parabola, circles),
         }
     }
 
     /// Joins the parabola's feed and that of circles, mm, at a place of this 1 − Rκ.
-    pub fn joined(&self, gap: f64, parabola: f64, circles: f64) -> f64 {
+    fn joined(&self, gap: f64, parabola: f64, circles: f64) -> f64 {
         match self.share(self.flat_spacing(gap)) {
             0.0 => parabola,
             1.0 => circles,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-pub use crate::cusp::{CIRCLES_FROM, CuspFeed, LEAST_GAP, PARABOLA_TO, smooth_step};
+pub use crate::cusp::{CIRCLES_FROM, CuspFeed, LEAST_GAP, LocalFeeds, PARABOLA_TO, smooth_step};
 use crate::neighbours::{FeedSearch, Neighbours};
 pub use crate::profile::{Profile, profile_at};
 use crate::tally::SERIES;
@@ -272,20 +272,17 @@ impl Locus for ToolLocus {
         let law = CuspFeed::new(residual, radial, &self.tool);
         let (mut large, mut searches) = (Vec::new(), Vec::new());
         for (i, profile) in profile.iter().enumerate() {
-            let parabola = law.parabola(profile);
-            feed[i] = parabola;
-            let gap = law.gap(profile.curvature());
-            if !law.needs_circles(gap) {
-                continue;
-            }
-            let circles = law.circles(profile);
-            feed[i] = law.joined(gap, parabola, circles);
-            if parabola.is_finite() && self.places(radial) {
-                large.push((i, gap, parabola));
+            let local = law.feeds(profile);
+            feed[i] = law.join(&local);
+            if let Some(circles) = local.circles
+                && local.parabola.is_finite()
+                && self.places(radial)
+            {
+                large.push((i, local));
                 searches.push(FeedSearch {
                     theta: theta[i],
                     rho: rho[i],
-                    cap: law.cap(profile.slope, gap),
+                    cap: law.cap(profile.slope, local.gap),
                     feed: circles,
                 });
             }
@@ -295,8 +292,11 @@ impl Locus for ToolLocus {
             compensator: self.compensator.as_ref(),
         };
         neighbours.search(residual, &mut searches);
-        for ((i, gap, parabola), search) in large.into_iter().zip(&searches) {
-            feed[i] = law.joined(gap, parabola, search.feed);
+        for ((i, local), search) in large.into_iter().zip(&searches) {
+            feed[i] = law.join(&LocalFeeds {
+                circles: Some(search.feed),
+                ..local
+            });
         }
         Ok(())
     }

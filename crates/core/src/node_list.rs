@@ -1,5 +1,7 @@
 //! The nodes that a sampler places: their revolutions, and how far they lie off the locus.
 
+use std::ops::Range;
+
 /// The largest distance of a node from the locus, as a part of the interpolation tolerance.
 /// Refinement halves segments whose error exceeds 0.99 of the tolerance, so a node itself must stay
 /// below that.
@@ -112,6 +114,16 @@ impl NodeList {
         self.n.truncate(len);
         self.dz.truncate(len);
         self.dz_dc.truncate(len);
+    }
+
+    /// Keeps the nodes of a range of numbers, which must not go beyond the last node.
+    pub fn keep(&mut self, range: Range<usize>) {
+        self.truncate(range.end);
+        self.n.drain(..range.start);
+        if self.has_offsets() {
+            self.dz.drain(..range.start);
+            self.dz_dc.drain(..range.start);
+        }
     }
 
     /// Replaces the first `count` nodes by one node on the locus at `n` revolutions.

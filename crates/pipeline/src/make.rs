@@ -19,6 +19,7 @@ pub type Depths = Vec<u8>;
 
 /// The control points of a block, and the first one of the next block, where the last segment
 /// ends.
+#[derive(Default)]
 pub struct BlockPoints {
     /// Which block of the path it is.
     pub index: usize,
@@ -83,8 +84,27 @@ pub fn close_joints(blocks: &mut [BlockPoints]) {
     }
 }
 
-/// The nodes of `range`, and of neighbours on both sides that hold `overlap` nodes. After the
-/// range there is one node more: the first node of the next block.
+/// Which nodes of a block are put on the locus.
+#[derive(Debug, Clone, Copy)]
+enum Part {
+    All,
+    First(usize),
+    Last(usize),
+}
+
+impl Part {
+    /// The part of so many nodes.
+    fn of(self, count: usize) -> Range<usize> {
+        match self {
+            Self::All => 0..count,
+            Self::First(wanted) => 0..count.min(wanted),
+            Self::Last(wanted) => count.saturating_sub(wanted)..count,
+        }
+    }
+}
+
+/// The nodes of `range`, and of neighbours on both sides `overlap` nodes and one more, which shows that the
+/// path goes on there. Behind the range there is another one: the first node of the next block.
 fn locate_with_neighbours(
     plan: &Plan<'_>,
     range: Range<usize>,
@@ -96,18 +116,20 @@ fn locate_with_neighbours(
         lengths.sum()
     };
     let (mut first, mut last) = (range.start, range.end);
-    let mut blocks = locate_blocks(plan, first..last, depths)?;
+    let mut blocks = locate_blocks(plan, first..last, depths, Part::All)?;
     let mut before = 0;
     while first > 0 && before < overlap {
         first -= 1;
-        let mut more = locate_blocks(plan, first..first + 1, depths)?;
+        let part = Part::Last(overlap + 1 - before);
+        let mut more = locate_blocks(plan, first..first + 1, depths, part)?;
         before += count(&more);
         more.append(&mut blocks);
         blocks = more;
     }
     let mut after = 0;
     while last < plan.blocks() && after < overlap + 1 {
-        let more = locate_blocks(plan, last..last + 1, depths)?;
+        let part = Part::First(overlap + 2 - after);
+        let more = locate_blocks(plan, last..last + 1, depths, part)?;
         after += count(&more);
         blocks.extend(more);
         last += 1;
@@ -115,11 +137,12 @@ fn locate_with_neighbours(
     Ok(NodeRow { first, blocks })
 }
 
-/// Samples and subdivides each block, and puts its nodes on the locus.
+/// Samples and subdivides each block, and puts a part of its nodes on the locus.
 fn locate_blocks(
     plan: &Plan<'_>,
     range: Range<usize>,
     depths: &[Depths],
+    part: Part,
 ) -> Result<Vec<NodeBlock>> {
     let sampled_to = (range.end + 1).min(plan.blocks());
     let sampled = (range.start..sampled_to).into_par_iter();
@@ -132,18 +155,37 @@ fn locate_blocks(
     };
     one_at_a_time(range.clone().into_par_iter().map(|index| {
         let nodes = &raw[index - range.start];
-        let depths = depths.get(index).map_or(&[][..], Vec::as_slice);
-        locate_block(plan, index, nodes, end_of(index), depths)
+        let mut block = subdivide(plan, index, nodes, end_of(index), depths);
+        block.nodes.keep(part.of(block.nodes.len()));
+        Ok(NodeBlock {
+            columns: locate(plan, &block.nodes)?,
+            owner: block.owner,
+            sampled: block.sampled,
+        })
     }))
 }
 
-fn locate_block(
+/// The nodes of a block, and between them those that halve its segments.
+struct Subdivision {
+    nodes: NodeList,
+    /// Which sampler segment each node's segment is a part of.
+    owner: Vec<u32>,
+    /// How many nodes the sampler placed, the path's last point included.
+    sampled: usize,
+}
+
+/// Halves the segments between the nodes that the sampler placed in a block, as often as `depths` says.
+fn subdivide(
     plan: &Plan<'_>,
     index: usize,
     sampled: &NodeList,
     end: f64,
-    depths: &[u8],
-) -> Result<NodeBlock> {
+    depths: &[Depths],
+) -> Subdivision {
+    let source = plan.source(index);
+    let depths = depths.get(source).map_or(&[][..], Vec::as_slice);
+    // A block that repeats the halvings of another one may have more nodes.
+    let repeated = depths.last().filter(|_| source != index);
     let revolutions = sampled.revolutions();
     // A sampler need not know where the path ends, nor the controller's steps of time.
     let has_no_step =
@@ -157,7 +199,8 @@ fn locate_block(
     let (mut nodes, mut owner) = (NodeList::default(), Vec::new());
     for (i, from) in kept.iter().enumerate() {
         let to = kept.get(i + 1).copied().unwrap_or(end);
-        let parts = 1u32 << depths.get(i).copied().unwrap_or(0);
+        let depth = depths.get(i).or(repeated).copied().unwrap_or(0);
+        let parts = 1u32 << depth;
         for part in 0..parts {
             let n = from + (to - from) * f64::from(part) / f64::from(parts);
             match part {
@@ -173,11 +216,11 @@ fn locate_block(
         owner.push(kept.len() as u32);
         count += 1;
     }
-    Ok(NodeBlock {
-        columns: locate(plan, &nodes)?,
+    Subdivision {
+        nodes,
         owner,
         sampled: count,
-    })
+    }
 }
 
 /// Nodes and their times. Where the controller has steps of time, the nodes are moved onto them.

@@ -24,10 +24,11 @@ pub const BLOCK: f64 = 64.0;
 /// bounded on the finest paths. The choice depends on the task alone, so the bytes do not depend on
 /// the machine.
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
-/// Nodes of a block that is one of a sample, at least; a block has whole revolutions. With 8 of them the sizes
-/// that `check` says of the table of points err by up to 2.3 % for the recipes of the documentation, and with
-/// 30 by up to 2.7 %. Where refinement makes eighty segments of one, 30 nodes are half of a path.
-const SAMPLED_BLOCK: f64 = 8.0;
+/// Nodes that a block of a sample has where they are densest, at least; it has whole revolutions. With 30 of
+/// them the sizes that `check` says of the table of points err by up to 2.3 % for the recipes of the
+/// documentation. With 8, lens arrays and paths of equal angles that refinement halves often erred by 10 %
+/// and more: what lies beyond a border counts for more.
+const SAMPLED_BLOCK: f64 = 30.0;
 /// Most numbers for nodes that are held in memory while a path is planned, refined and written: 160
 /// MB. A node on the path takes one, and a node beside it three. The sampler of a longer path is asked
 /// again in every pass.
@@ -81,8 +82,10 @@ pub struct Plan<'a> {
     sampler_states: Vec<Vec<f64>>,
     /// The nodes of each block while they are held; empty while they are not.
     held: Vec<HeldNodes>,
-    /// Which blocks of a sample have the nodes of another one; none where each has its own.
+    /// Which blocks of a path have the halvings of which ones of a sample; none where there is no sample.
     repeated: Option<RepeatedBlocks>,
+    /// Whether they have the nodes too.
+    repeats_nodes: bool,
 }
 
 impl<'a> Plan<'a> {
@@ -120,6 +123,7 @@ impl<'a> Plan<'a> {
             sampler_states: Vec::new(),
             held: Vec::new(),
             repeated: None,
+            repeats_nodes: false,
         };
         plan.divide(observer)?;
         Ok(plan)
@@ -184,14 +188,15 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Holds the nodes of a sample. The blocks that are not of it get the nodes of
-    /// [repeated blocks](RepeatedBlocks), whole revolutions on, if each repeated block begins with a node at its
-    /// start. Otherwise the sampler does not begin afresh at each block, and places all nodes itself.
-    pub fn repeat_nodes(&mut self, blocks: RepeatedBlocks) -> Result<()> {
-        if self.keeps_its_blocks() {
+    /// Holds the nodes of a sample. The blocks that are not of it get the halvings of
+    /// [repeated blocks](RepeatedBlocks). They get their nodes too, whole revolutions on, if each repeated block
+    /// begins with a node at its start. Otherwise the sampler does not begin afresh at each block, and places
+    /// all nodes itself.
+    pub fn repeat(&mut self, blocks: RepeatedBlocks) -> Result<()> {
+        if self.repeated.is_none() && self.keeps_its_blocks() {
             return Ok(());
         }
-        if self.blocks() as f64 * NUMBERS_OF_BLOCK <= MOST_HELD {
+        if !self.holds_nodes() && self.blocks() as f64 * NUMBERS_OF_BLOCK <= MOST_HELD {
             self.held = (0..self.blocks()).map(|_| HeldNodes::default()).collect();
         }
         let begins_afresh = |index: usize| {
@@ -202,7 +207,8 @@ impl<'a> Plan<'a> {
         };
         let repeated = blocks.repeated().par_iter();
         let begin_afresh: Vec<bool> = one_at_a_time(repeated.map(|index| begins_afresh(*index)))?;
-        self.repeated = begin_afresh.into_iter().all(|is| is).then_some(blocks);
+        self.repeats_nodes = begin_afresh.into_iter().all(|is| is);
+        self.repeated = Some(blocks);
         Ok(())
     }
 
@@ -216,7 +222,7 @@ impl<'a> Plan<'a> {
         self.block = BLOCK;
         self.block = self.comfortable_block()?;
         self.sampler_states = Vec::new();
-        self.repeated = None;
+        (self.repeated, self.repeats_nodes) = (None, false);
         if self.sampler.dependence() == Dependence::Sequential {
             let mut state = Vec::new();
             for index in 0..self.blocks() {
@@ -316,12 +322,23 @@ impl<'a> Plan<'a> {
 
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
     pub fn sample(&self, index: usize) -> Result<NodeList> {
-        let source = self.repeated.as_ref().map(|blocks| blocks.source(index));
-        let Some(source) = source.filter(|source| *source != index) else {
+        let source = self.source(index);
+        if source == index || !self.repeats_nodes {
             return self.own_nodes(index);
-        };
+        }
         let turns = self.revolutions(index).start - self.revolutions(source).start;
         Ok(self.own_nodes(source)?.turned_on(turns))
+    }
+
+    /// Whether a sample repeats nodes. Its sampler begins afresh at each block.
+    pub fn repeats_nodes(&self) -> bool {
+        self.repeats_nodes
+    }
+
+    /// The block whose halvings a block has: itself, but where a sample repeats those of another.
+    pub fn source(&self, index: usize) -> usize {
+        let repeated = self.repeated.as_ref();
+        repeated.map_or(index, |blocks| blocks.source(index))
     }
 
     fn own_nodes(&self, index: usize) -> Result<NodeList> {

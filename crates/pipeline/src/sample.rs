@@ -8,7 +8,7 @@ use turnpath_verify::AxesMotion;
 
 use crate::estimate::Estimate;
 use crate::lead::{LeadRun, LeadTask};
-use crate::make::{Depths, first_state, make};
+use crate::make::{BlockPoints, Depths, first_state, make};
 use crate::observer::SilentObserver;
 use crate::options::PathOptions;
 use crate::order::one_at_a_time;
@@ -72,7 +72,7 @@ pub fn sample_path(
     let are_cut = plan.block() < whole_block;
     let strata = strata(plan.blocks());
     let chosen: Vec<usize> = strata.iter().map(|stratum| stratum.chosen).collect();
-    plan.repeat_nodes(RepeatedBlocks::of(&chosen, plan.blocks()))?;
+    plan.repeat(RepeatedBlocks::of(&chosen, plan.blocks()))?;
     let depths = match options.refine {
         true => refine(&plan, SAMPLED_BLOCKS, &chosen, observer)?,
         false => Vec::new(),
@@ -86,13 +86,13 @@ pub fn sample_path(
         .transpose()?;
     let mut sample = PathSample::default();
     let block = |stratum: &Stratum| {
-        let points = block(&plan, stratum.chosen, &depths)?;
-        let whole_steps = match are_cut && !plan.is_last(stratum.chosen) {
-            true => share_of_whole_steps(&points.c),
+        let block = block(&plan, stratum.chosen, &depths)?;
+        let whole_steps = match are_cut && plan.repeats_nodes() && !plan.is_last(stratum.chosen) {
+            true => share_of_whole_steps(&block.points.c, &block.owner),
             false => 1.0,
         };
         Ok(SampledBlock {
-            points,
+            points: block.points,
             stands_for: stratum.stands_for(&plan),
             whole_steps,
         })
@@ -153,23 +153,32 @@ fn strata(blocks: usize) -> Vec<Stratum> {
     strata
 }
 
-/// The points of one block. It has a node, so it has points.
-fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<PathBlock> {
+/// The points of one block.
+fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<BlockPoints> {
     let blocks = make(plan, index..index + 1, depths, first_state(plan).as_mut())?;
-    let points = blocks.into_iter().map(|block| block.points).next();
-    Ok(points.unwrap_or_default())
+    Ok(blocks.into_iter().next().unwrap_or_default())
 }
 
-/// How many steps of the sampler a block has, over its segments. The border of a small block cuts its last
-/// step off, and in the path there are fewer borders.
-fn share_of_whole_steps(c: &[f64]) -> f64 {
-    let segments = c.len().saturating_sub(1) as f64;
-    match c {
-        [.., first, middle, end] if middle > first => {
-            let part = (end - middle) / (middle - first);
-            (segments - 1.0 + part.min(1.0)) / segments
-        }
-        _ => 1.0,
+/// How many segments a block would have without its border, over those that it has. The border of a small
+/// block cuts the sampler's last step off, and in the path there are fewer borders. `owner` says of which
+/// step each segment is a part.
+fn share_of_whole_steps(c: &[f64], owner: &[u32]) -> f64 {
+    let steps: Vec<&[u32]> = owner.chunk_by(|one, other| one == other).collect();
+    let [.., before, last] = steps[..] else {
+        return 1.0;
+    };
+    let whole = owner.len() - last.len();
+    let [Some(from), Some(middle), Some(end)] =
+        [whole - before.len(), whole, owner.len()].map(|place| c.get(place))
+    else {
+        return 1.0;
+    };
+    let part = (end - middle) / (middle - from);
+    let whole_steps = (steps.len() - 1) as f64;
+    let of_each = whole as f64 / whole_steps;
+    match part < 1.0 {
+        true => of_each * (whole_steps + part) / owner.len() as f64,
+        false => 1.0,
     }
 }
 
@@ -187,11 +196,15 @@ mod tests {
 
     #[test]
     fn a_step_that_the_border_cuts_off_counts_as_its_part() {
-        assert_eq!(share_of_whole_steps(&[0.0, 1.0, 2.0, 2.25]), 2.25 / 3.0);
-        assert_eq!(share_of_whole_steps(&[0.0, 1.0, 2.0, 3.0]), 1.0);
-        assert_eq!(share_of_whole_steps(&[0.0, 1.0, 2.0, 4.0]), 1.0);
-        assert_eq!(share_of_whole_steps(&[0.0, 1.0]), 1.0);
-        assert_eq!(share_of_whole_steps(&[]), 1.0);
+        let share = |c: &[f64], owner: &[u32]| share_of_whole_steps(c, owner);
+        assert_eq!(share(&[0.0, 1.0, 2.0, 2.25], &[0, 1, 2]), 2.25 / 3.0);
+        assert_eq!(share(&[0.0, 1.0, 2.0, 3.0], &[0, 1, 2]), 1.0);
+        assert_eq!(share(&[0.0, 1.0, 2.0, 4.0], &[0, 1, 2]), 1.0);
+        assert_eq!(share(&[0.0, 1.0], &[0]), 1.0);
+        assert_eq!(share(&[], &[]), 1.0);
+        // Two steps of four segments each, and half a step of one.
+        let c = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5];
+        assert_eq!(share(&c, &[0, 0, 0, 0, 1, 1, 1, 1, 2]), 10.0 / 9.0);
     }
 
     #[test]

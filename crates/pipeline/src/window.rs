@@ -8,11 +8,11 @@ use crate::plan::Plan;
 /// The nodes of a block, on the locus.
 #[derive(Default)]
 pub struct NodeBlock {
-    /// Which sampler segment each node's segment is a part of.
+    /// Which sampler segment each segment of the block is a part of.
     pub owner: Vec<u32>,
     /// How many nodes the sampler placed, the path's last point included.
     pub sampled: usize,
-    /// The nodes.
+    /// The nodes; of a neighbour of the blocks that are made, those that are near to them.
     pub columns: Columns,
 }
 

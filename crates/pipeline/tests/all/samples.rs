@@ -145,11 +145,41 @@ fn assert_sees_even_steps(turns: f64, sampler: Arc<dyn Sampler>, step: f64) {
 fn a_solver_sees_its_overlap_on_either_side_of_a_block_of_the_sample() {
     assert_sees_even_steps(TURNS, even(STEPS), 1.0 / STEPS);
     assert_sees_even_steps(TURNS + 0.4, even(STEPS), 1.0 / STEPS);
+    // Blocks of several revolutions.
+    assert_sees_even_steps(TURNS, even(9.0), 1.0 / 9.0);
     assert_sees_even_steps(TURNS, in_steps_of(0.0247), 0.0247);
     assert_sees_even_steps(TURNS + 0.4, in_steps_of(0.0247), 0.0247);
     // Every seventh revolution begins with a node by chance.
     assert_sees_even_steps(TURNS, in_steps_of(7.0 / 280.0 * 1.01), 7.0 / 280.0 * 1.01);
     assert_sees_even_steps(TURNS, in_steps_of(7.0 / 270.0), 7.0 / 270.0);
+}
+
+/// Where all segments are halved, a solver sees none that are longer beyond a block. The blocks beside the
+/// first and the last one are not of the sample, so that these two see longer ones.
+#[test]
+fn what_lies_beyond_a_block_of_the_sample_is_halved_as_the_block_is() {
+    for sampler in [even(STEPS), in_steps_of(0.0247)] {
+        let (solver, windows) = Watched::from(0.0);
+        let task = Task {
+            sampler,
+            ..task(solver, true)
+        };
+        task.sample();
+        let windows = windows.lock().unwrap();
+        let is_inner =
+            |window: &&Vec<f64>| window[0] > 3.0 && window[window.len() - 1] < TURNS - 3.0;
+        let mut halved = 0;
+        for window in windows.iter().filter(is_inner) {
+            let steps = || window.windows(2).map(|pair| pair[1] - pair[0]);
+            let [shortest, longest] = [
+                steps().fold(f64::INFINITY, f64::min),
+                steps().fold(0.0, f64::max),
+            ];
+            assert!(longest < 1.01 * shortest, "{shortest} {longest}");
+            halved += usize::from(longest < 0.9 / STEPS);
+        }
+        assert!(halved >= SAMPLED - 2, "{halved}");
+    }
 }
 
 /// It has run over the path before, and has its nodes where they are.
