@@ -135,14 +135,14 @@ impl CuspFeed {
 
     /// Joins the feeds of a place, mm.
     pub fn join(&self, feeds: &LocalFeeds) -> f64 {
-        match feeds.circles {
-            None => feeds.parabola,
-            Some(circles) => self.joined(feeds.gap, feeds.parabola, circles),
-        }
-    }
-
-    /// Joins the parabola's feed and that of circles, mm, at a place of this 1 − Rκ.
-    fn joined(&self, gap: f64, parabola: f64, circles: f64) -> f64 {
+        let LocalFeeds {
+            gap,
+            parabola,
+            circles,
+        } = *feeds;
+        let Some(circles) = circles else {
+            return parabola;
+        };
         match self.share(self.flat_spacing(gap)) {
             0.0 => parabola,
             1.0 => circles,

@@ -27,6 +27,9 @@ pub struct NodeOffset {
 /// assert_eq!(nodes.revolutions(), [0.0, 0.1]);
 /// assert_eq!(nodes.offset(0), NodeOffset::default());
 /// assert_eq!(nodes.offset(1).dz, 2e-6);
+/// nodes.push(0.2);
+/// nodes.keep(1..2);
+/// assert_eq!((nodes.revolutions(), nodes.offset(0).dz), (&[0.1][..], 2e-6));
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NodeList {

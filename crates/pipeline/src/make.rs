@@ -103,8 +103,9 @@ impl Part {
     }
 }
 
-/// The nodes of `range`, and of neighbours on both sides `overlap` nodes and one more, which shows that the
-/// path goes on there. Behind the range there is another one: the first node of the next block.
+/// The nodes of `range`, and those of neighbours that a solver with this overlap sees: `overlap` before the
+/// range, and one more than `overlap` after it, as the next block's first node is the joint. On either side
+/// there is one node more, which shows that the path goes on.
 fn locate_with_neighbours(
     plan: &Plan<'_>,
     range: Range<usize>,
@@ -182,9 +183,9 @@ fn subdivide(
     end: f64,
     depths: &[Depths],
 ) -> Subdivision {
-    let source = plan.source(index);
+    let source = plan.halved_as(index);
     let depths = depths.get(source).map_or(&[][..], Vec::as_slice);
-    // A block that repeats the halvings of another one may have more nodes.
+    // A block that repeats the halvings of another one may have a node more.
     let repeated = depths.last().filter(|_| source != index);
     let revolutions = sampled.revolutions();
     // A sampler need not know where the path ends, nor the controller's steps of time.

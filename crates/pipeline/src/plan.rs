@@ -26,8 +26,7 @@ pub const BLOCK: f64 = 64.0;
 const COMFORTABLE_BLOCK: f64 = 50_000.0;
 /// Nodes that a block of a sample has where they are densest, at least; it has whole revolutions. With 30 of
 /// them the sizes that `check` says of the table of points err by up to 2.3 % for the recipes of the
-/// documentation. With 8, lens arrays and paths of equal angles that refinement halves often erred by 10 %
-/// and more: what lies beyond a border counts for more.
+/// documentation. With 8, lens arrays of other shapes erred by up to 10 %: borders count for more.
 const SAMPLED_BLOCK: f64 = 30.0;
 /// Most numbers for nodes that are held in memory while a path is planned, refined and written: 160
 /// MB. A node on the path takes one, and a node beside it three. The sampler of a longer path is asked
@@ -82,9 +81,10 @@ pub struct Plan<'a> {
     sampler_states: Vec<Vec<f64>>,
     /// The nodes of each block while they are held; empty while they are not.
     held: Vec<HeldNodes>,
-    /// Which blocks of a path have the halvings of which ones of a sample; none where there is no sample.
+    /// Which blocks repeat halvings of a sample; none where there is no sample, or where its sampler is
+    /// sequential.
     repeated: Option<RepeatedBlocks>,
-    /// Whether they have the nodes too.
+    /// Whether blocks repeat nodes too.
     repeats_nodes: bool,
 }
 
@@ -193,10 +193,10 @@ impl<'a> Plan<'a> {
     /// begins with a node at its start. Otherwise the sampler does not begin afresh at each block, and places
     /// all nodes itself.
     pub fn repeat(&mut self, blocks: RepeatedBlocks) -> Result<()> {
-        if self.repeated.is_none() && self.keeps_its_blocks() {
+        if self.keeps_its_blocks() {
             return Ok(());
         }
-        if !self.holds_nodes() && self.blocks() as f64 * NUMBERS_OF_BLOCK <= MOST_HELD {
+        if self.blocks() as f64 * NUMBERS_OF_BLOCK <= MOST_HELD {
             self.held = (0..self.blocks()).map(|_| HeldNodes::default()).collect();
         }
         let begins_afresh = |index: usize| {
@@ -322,8 +322,9 @@ impl<'a> Plan<'a> {
 
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
     pub fn sample(&self, index: usize) -> Result<NodeList> {
-        let source = self.source(index);
-        if source == index || !self.repeats_nodes {
+        let repeated = self.repeated.as_ref().filter(|_| self.repeats_nodes);
+        let source = repeated.map_or(index, |blocks| blocks.source(index));
+        if source == index {
             return self.own_nodes(index);
         }
         let turns = self.revolutions(index).start - self.revolutions(source).start;
@@ -335,10 +336,11 @@ impl<'a> Plan<'a> {
         self.repeats_nodes
     }
 
-    /// The block whose halvings a block has: itself, but where a sample repeats those of another.
-    pub fn source(&self, index: usize) -> usize {
+    /// The block whose segments are halved as often as those of a block: itself, unless a sample repeats
+    /// halvings.
+    pub fn halved_as(&self, index: usize) -> usize {
         let repeated = self.repeated.as_ref();
-        repeated.map_or(index, |blocks| blocks.source(index))
+        repeated.map_or(index, |blocks| blocks.halved_as(index))
     }
 
     fn own_nodes(&self, index: usize) -> Result<NodeList> {

@@ -47,7 +47,7 @@ pub struct Refinement {
 
 /// Halves segments until the played error is below the aim everywhere, or no segment can be halved
 /// any more. Gives how often each sampler segment is halved. Only the `chosen` blocks are refined, in
-/// their order, `batch` of them at a time; of the others nothing is halved.
+/// their order, `batch` of them at a time. The others have no depths of their own.
 pub fn refine(
     plan: &Plan<'_>,
     batch: usize,

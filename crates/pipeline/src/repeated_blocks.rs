@@ -1,12 +1,14 @@
-//! Which block of a sample repeats the nodes of which.
+//! Which blocks of a path repeat the nodes and the halvings of which blocks of a sample.
 
-/// The blocks of a sample, and those whose nodes are repeated.
+/// The blocks of a sample, and those whose nodes and halvings are repeated.
 #[derive(Debug)]
 pub struct RepeatedBlocks {
     /// The blocks of the sample, in order. Each has its own nodes.
     chosen: Vec<usize>,
     /// The blocks whose nodes are repeated, in order.
     repeated: Vec<usize>,
+    /// The blocks whose halvings are repeated, in order.
+    halved: Vec<usize>,
 }
 
 impl RepeatedBlocks {
@@ -18,9 +20,12 @@ impl RepeatedBlocks {
         let beside = chosen.iter().map(|of| (*of).clamp(1, most));
         let mut repeated: Vec<usize> = beside.filter(|of| *of < blocks).collect();
         repeated.dedup();
+        // The last block may be shorter than the others.
+        let halved = chosen.iter().filter(|of| **of + 1 < blocks).copied();
         Self {
             chosen: chosen.to_vec(),
             repeated,
+            halved: halved.collect(),
         }
     }
 
@@ -35,11 +40,24 @@ impl RepeatedBlocks {
         if self.chosen.binary_search(&index).is_ok() {
             return index;
         }
-        let behind = self.repeated.partition_point(|of| *of < index);
-        let beside = self.repeated[behind.saturating_sub(1)..].iter().take(2);
-        let nearest = beside.min_by_key(|of| of.abs_diff(index));
-        nearest.copied().unwrap_or(index)
+        nearest(&self.repeated, index).unwrap_or(index)
     }
+
+    /// The block whose segments are halved as often as those of a block: itself, if it is of the sample, else
+    /// the nearest one of the sample, but not the path's last one.
+    pub fn halved_as(&self, index: usize) -> usize {
+        if self.chosen.binary_search(&index).is_ok() {
+            return index;
+        }
+        nearest(&self.halved, index).unwrap_or(index)
+    }
+}
+
+/// Of some blocks in order the nearest one.
+fn nearest(blocks: &[usize], index: usize) -> Option<usize> {
+    let behind = blocks.partition_point(|of| *of < index);
+    let beside = blocks[behind.saturating_sub(1)..].iter().take(2);
+    beside.min_by_key(|of| of.abs_diff(index)).copied()
 }
 
 #[cfg(test)]
@@ -51,6 +69,8 @@ mod tests {
         let blocks = RepeatedBlocks::of(&[0, 4, 8], 9);
         let sources: Vec<usize> = (0..9).map(|index| blocks.source(index)).collect();
         assert_eq!(sources, [0, 1, 1, 4, 4, 4, 7, 7, 8]);
+        let halved: Vec<usize> = (0..9).map(|index| blocks.halved_as(index)).collect();
+        assert_eq!(halved, [0, 0, 0, 4, 4, 4, 4, 4, 8]);
     }
 
     #[test]

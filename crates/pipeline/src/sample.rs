@@ -1,6 +1,6 @@
 //! Some blocks of a path nearly as a run makes them, from which the sizes of its files follow before it is made.
 //! What a velocity solver sees beyond such a block are nodes of the sample, if the sampler begins afresh at each
-//! block.
+//! block. Their segments are halved as those of the sample.
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
@@ -22,6 +22,10 @@ use crate::{Chain, Preparation, Result, schedule};
 /// a tenth too small. More places cost time.
 const SAMPLED_BLOCKS: usize = 16;
 
+/// A last step of more than this part of the one before is whole: its border lies where a step ends, but for
+/// rounding, or a controller's step of time.
+const WHOLE_STEP: f64 = 0.99;
+
 /// Some blocks of a path, refined, and its leads.
 #[derive(Debug, Clone, Default)]
 pub struct PathSample {
@@ -38,15 +42,15 @@ pub struct SampledBlock {
     pub points: PathBlock,
     /// Revolutions of the path that it stands for, over its own.
     pub stands_for: f64,
-    /// Steps of the sampler over segments. The border of a block that was made small for the sample cuts its last
-    /// step off.
-    pub whole_steps: f64,
+    /// Segments that it would have without its border, over those that it has. The border of a block that was
+    /// made small for the sample cuts its last step off.
+    pub without_border: f64,
 }
 
 impl SampledBlock {
     /// How many times its own segments the path has where it stands for it.
     pub fn segments_for_each(&self) -> f64 {
-        self.stands_for * self.whole_steps
+        self.stands_for * self.without_border
     }
 
     /// Segments of the path that it stands for.
@@ -87,14 +91,15 @@ pub fn sample_path(
     let mut sample = PathSample::default();
     let block = |stratum: &Stratum| {
         let block = block(&plan, stratum.chosen, &depths)?;
-        let whole_steps = match are_cut && plan.repeats_nodes() && !plan.is_last(stratum.chosen) {
-            true => share_of_whole_steps(&block.points.c, &block.owner),
+        let is_cut = are_cut && plan.repeats_nodes() && !plan.is_last(stratum.chosen);
+        let without_border = match is_cut {
+            true => without_border(&block.points.c, &block.owner),
             false => 1.0,
         };
         Ok(SampledBlock {
             points: block.points,
             stands_for: stratum.stands_for(&plan),
-            whole_steps,
+            without_border,
         })
     };
     sample.blocks = one_at_a_time(strata.par_iter().map(block))?;
@@ -153,7 +158,7 @@ fn strata(blocks: usize) -> Vec<Stratum> {
     strata
 }
 
-/// The points of one block.
+/// One block. It is made, so there is one.
 fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<BlockPoints> {
     let blocks = make(plan, index..index + 1, depths, first_state(plan).as_mut())?;
     Ok(blocks.into_iter().next().unwrap_or_default())
@@ -162,7 +167,7 @@ fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<BlockPoints
 /// How many segments a block would have without its border, over those that it has. The border of a small
 /// block cuts the sampler's last step off, and in the path there are fewer borders. `owner` says of which
 /// step each segment is a part.
-fn share_of_whole_steps(c: &[f64], owner: &[u32]) -> f64 {
+fn without_border(c: &[f64], owner: &[u32]) -> f64 {
     let steps: Vec<&[u32]> = owner.chunk_by(|one, other| one == other).collect();
     let [.., before, last] = steps[..] else {
         return 1.0;
@@ -174,10 +179,9 @@ fn share_of_whole_steps(c: &[f64], owner: &[u32]) -> f64 {
         return 1.0;
     };
     let part = (end - middle) / (middle - from);
-    let whole_steps = (steps.len() - 1) as f64;
-    let of_each = whole as f64 / whole_steps;
-    match part < 1.0 {
-        true => of_each * (whole_steps + part) / owner.len() as f64,
+    let (before, of_each) = (steps.len() - 1, whole as f64 / (steps.len() - 1) as f64);
+    match part < WHOLE_STEP {
+        true => of_each * (before as f64 + part) / owner.len() as f64,
         false => 1.0,
     }
 }
@@ -196,15 +200,22 @@ mod tests {
 
     #[test]
     fn a_step_that_the_border_cuts_off_counts_as_its_part() {
-        let share = |c: &[f64], owner: &[u32]| share_of_whole_steps(c, owner);
-        assert_eq!(share(&[0.0, 1.0, 2.0, 2.25], &[0, 1, 2]), 2.25 / 3.0);
-        assert_eq!(share(&[0.0, 1.0, 2.0, 3.0], &[0, 1, 2]), 1.0);
-        assert_eq!(share(&[0.0, 1.0, 2.0, 4.0], &[0, 1, 2]), 1.0);
-        assert_eq!(share(&[0.0, 1.0], &[0]), 1.0);
-        assert_eq!(share(&[], &[]), 1.0);
+        assert_eq!(
+            without_border(&[0.0, 1.0, 2.0, 2.25], &[0, 1, 2]),
+            2.25 / 3.0
+        );
+        assert_eq!(without_border(&[0.0, 1.0, 2.0, 3.0], &[0, 1, 2]), 1.0);
+        assert_eq!(without_border(&[0.0, 1.0, 2.0, 4.0], &[0, 1, 2]), 1.0);
+        assert_eq!(without_border(&[0.0, 1.0], &[0]), 1.0);
+        assert_eq!(without_border(&[], &[]), 1.0);
+        // Rounding cuts nothing off, however many segments the steps before have.
+        assert_eq!(
+            without_border(&[0.0, 0.5, 1.0, 2.0 - 1e-12], &[0, 0, 1]),
+            1.0
+        );
         // Two steps of four segments each, and half a step of one.
         let c = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5];
-        assert_eq!(share(&c, &[0, 0, 0, 0, 1, 1, 1, 1, 2]), 10.0 / 9.0);
+        assert_eq!(without_border(&c, &[0, 0, 0, 0, 1, 1, 1, 1, 2]), 10.0 / 9.0);
     }
 
     #[test]

@@ -12,7 +12,7 @@ pub struct NodeBlock {
     pub owner: Vec<u32>,
     /// How many nodes the sampler placed, the path's last point included.
     pub sampled: usize,
-    /// The nodes; of a neighbour of the blocks that are made, those that are near to them.
+    /// The nodes; of a neighbour of the blocks that are made, those that are near to them. Its owners are all.
     pub columns: Columns,
 }
 

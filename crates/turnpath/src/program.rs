@@ -164,7 +164,7 @@ impl Program {
         let mut rate = SegmentRate::default();
         let carried = self.carried(self.layout.carried(&stretch))?;
         carried.points.points().for_each(|point| rate.pass(&point));
-        rate.extrapolate(block.stands_for, block.whole_steps);
+        rate.extrapolate(block.stands_for, block.without_border);
         Ok(rate)
     }
 

@@ -95,7 +95,7 @@ mod tests {
         let block = |count: usize, stands_for: f64| SampledBlock {
             points: points(count),
             stands_for,
-            whole_steps: 0.5,
+            without_border: 0.5,
         };
         let sample = PathSample {
             blocks: vec![block(11, 6.0), block(1, 7.0), block(5, 1.0)],

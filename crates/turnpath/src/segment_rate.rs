@@ -38,16 +38,16 @@ impl SegmentRate {
     }
 
     /// Counts the segments of a second from a sample that is shorter. The path goes on like the sample for
-    /// `times` its time. `whole_steps` is the number of the sampler's steps over the number of segments: the
-    /// end of the sample cuts its last step off.
-    pub fn extrapolate(&mut self, times: f64, whole_steps: f64) {
+    /// `times` its time. `without_border` is the number of segments that it would have without its end, over
+    /// those that it has: the end cuts the sampler's last step off.
+    pub fn extrapolate(&mut self, times: f64, without_border: f64) {
         let (Some(first), Some(last)) = (self.times.front(), self.times.back()) else {
             return;
         };
         let (passed, segments) = (last - first, self.times.len() - 1);
         let time = WINDOW.min(passed * times);
         if passed > 0.0 && passed < time {
-            let expected = segments as f64 * whole_steps * time / passed;
+            let expected = segments as f64 * without_border * time / passed;
             self.most = self.most.max(expected as u64);
         }
     }

@@ -7,7 +7,10 @@ use std::sync::{Arc, Mutex};
 use crate::common::solvers::{Area, Disjoint, Exact, Spline};
 use crate::common::{Counting, K, Nodes, RIM, Saddle, Task, even, feed_of, inward, straight};
 use turnpath_core::toolpath::PathBlock;
-use turnpath_core::{Direction, Part, Path, Revolutions, Scalar, Tool, Velocities, VelocitySolver};
+use turnpath_core::{
+    Dependence, Direction, Part, Path, Result, Revolutions, Scalar, Tool, Velocities,
+    VelocitySolver,
+};
 use turnpath_verify::{FirstTouch, Meter, Subject};
 
 /// The velocities of `solver` when it gets the whole path, of constant feed, at once.
@@ -69,6 +72,60 @@ fn a_spline_in_blocks_is_the_spline_of_the_whole_path() {
             difference < 1e-12,
             "{revolutions} revolutions: {difference}"
         );
+    }
+}
+
+/// What a solver is told of the ends of the nodes that it sees: the times of the first and of the last one,
+/// and whether they are the path's ends.
+type Ends = Arc<Mutex<Vec<([f64; 2], [bool; 2])>>>;
+
+/// A solver that keeps what it is told.
+struct EndsKeeper {
+    dependence: Dependence,
+    ends: Ends,
+}
+
+impl VelocitySolver for EndsKeeper {
+    fn dependence(&self) -> Dependence {
+        self.dependence
+    }
+
+    fn solve(&self, nodes: turnpath_core::Nodes<'_>, out: Velocities<'_>) -> Result<()> {
+        if let [first, .., last] = nodes.t {
+            let ends = ([*first, *last], [nodes.at_start, nodes.at_end]);
+            self.ends.lock().expect("the ends").push(ends);
+        }
+        Exact.solve(nodes, out)
+    }
+}
+
+/// Blocks have 64 nodes, and those that a solver sees of a neighbour are fewer, as many, and more.
+#[test]
+fn a_solver_is_told_of_the_ends_of_the_path_where_it_sees_them() {
+    for overlap in [0, 1, 2, 63, 64, 65, 66, 127, 200] {
+        for revolutions in [0.3, 63.0, 64.0, 64.5, 128.0, 193.0, 320.4] {
+            let ends = Ends::default();
+            let task = Task {
+                feed: inward(revolutions),
+                sampler: even(1.0),
+                velocity: Arc::new(EndsKeeper {
+                    dependence: match overlap {
+                        0 => Dependence::Local,
+                        _ => Dependence::Overlap(overlap),
+                    },
+                    ends: ends.clone(),
+                }),
+                ..Task::default()
+            };
+            let path = task.unmeasured();
+            let [start, end] = [path.t[0], path.t[path.len() - 1]];
+            let ends = ends.lock().expect("the ends");
+            assert!(!ends.is_empty());
+            for ([first, last], told) in ends.iter() {
+                let seen = [*first == start, *last == end];
+                assert_eq!(*told, seen, "{overlap}, {revolutions}: {first} to {last}");
+            }
+        }
     }
 }
 
