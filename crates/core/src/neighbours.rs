@@ -245,8 +245,8 @@ impl<'a> OpenSearch<'a> {
         }
     }
 
-    /// The feed that leaves `residual` if the square roots of cusps grow evenly with the feed. None if a
-    /// known cusp contradicts it.
+    /// The feed that leaves `residual` if the square roots of cusps grow evenly with the feed. None if this
+    /// feed is out of bounds, or if the cusp before is far from the residual.
     fn secant(&self, before: TriedFeed, present: TriedFeed, residual: f64) -> Option<f64> {
         let wanted = residual.sqrt();
         if before.sqrt_cusp > FAR.sqrt() * wanted {

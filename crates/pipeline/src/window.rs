@@ -12,7 +12,8 @@ pub struct NodeBlock {
     pub owner: Vec<u32>,
     /// How many nodes the sampler placed, the path's last point included.
     pub sampled: usize,
-    /// The nodes; of a neighbour of the blocks that are made, those that are near to them. Its owners are all.
+    /// The nodes. A neighbour of the blocks that are made has only the nodes next to them here; its other fields
+    /// are those of the whole block.
     pub columns: Columns,
 }
 
