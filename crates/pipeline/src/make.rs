@@ -35,14 +35,18 @@ pub struct BlockPoints {
     pub ends_path: bool,
 }
 
-/// The state that a sequential solver starts with; nothing for others.
-pub fn first_state(plan: &Plan<'_>) -> Option<Vec<f64>> {
-    let sequential = plan.chain.velocity.strategy.dependence() == Dependence::Sequential;
-    sequential.then(Vec::new)
+/// Whether the velocity solver goes through the path from its beginning.
+pub fn is_sequential(plan: &Plan<'_>) -> bool {
+    plan.chain.velocity.strategy.dependence() == Dependence::Sequential
 }
 
-/// Makes the blocks of `range` in parallel, each with as many of its neighbours' nodes as the
-/// velocity solver needs.
+/// The state that a sequential solver starts with; nothing for others.
+pub fn first_state(plan: &Plan<'_>) -> Option<Vec<f64>> {
+    is_sequential(plan).then(Vec::new)
+}
+
+/// Makes the blocks of `range`, each with as many of its neighbours' nodes as the velocity solver needs: in
+/// parallel, unless the solver is sequential.
 pub fn make(
     plan: &Plan<'_>,
     range: Range<usize>,
@@ -74,11 +78,12 @@ pub fn make(
     Ok(blocks)
 }
 
-/// Ends every block with the first point of the next block. The joint is then measured as it is
-/// written, and not as the block's own window had it.
+/// Ends every block with the first point of the next block, if that follows it on the path. The joint is then
+/// measured as it is written, and not as the block's own window had it.
 pub fn close_joints(blocks: &mut [BlockPoints]) {
     for i in 1..blocks.len() {
-        if let Some(joint) = blocks[i].points.get(0) {
+        let follows = blocks[i].index == blocks[i - 1].index + 1;
+        if let Some(joint) = blocks[i].points.get(0).filter(|_| follows) {
             blocks[i - 1].points.set_last(joint);
         }
     }

@@ -44,6 +44,7 @@ const PLACES_A_TURN: f64 = 4.0;
 /// A larger part leaves points to refinement: 2.5e-3 left 0.21 % of all on OAP-213, and this leaves 0.05 %
 /// for half as many series more.
 const LARGEST_CHANGE: f64 = 7.5e-4;
+
 /// Where and when the cutting section begins: after the lead-in, if there is one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Start {
@@ -73,7 +74,8 @@ pub struct Plan<'a> {
     pub start: Start,
     /// Revolutions of a block: [`BLOCK`], or fewer where there are very many nodes.
     block: f64,
-    /// Nodes of a revolution where they are densest.
+    /// Nodes of a revolution where they are densest: of a sequential sampler in the densest block, and of others
+    /// at the path's start, middle and end.
     density: f64,
     /// The sampler's plan of the whole path.
     sampler: Box<dyn SamplerPlan>,
@@ -220,23 +222,55 @@ impl<'a> Plan<'a> {
     /// Divides the path into blocks, and learns the states of a sequential sampler.
     fn divide(&mut self, observer: &dyn Observer) -> Result<()> {
         self.block = BLOCK;
-        self.block = self.comfortable_block()?;
+        self.look_at_density()?;
+        self.shorten_blocks();
         self.sampler_states = Vec::new();
         (self.repeated, self.repeats_nodes) = (None, false);
         if self.sampler.dependence() == Dependence::Sequential {
-            let mut state = Vec::new();
-            for index in 0..self.blocks() {
-                stop_if_cancelled(observer)?;
-                self.sampler_states.push(state.clone());
-                self.sample_from(index, &mut state)?;
+            self.learn_states(observer)?;
+            // The first revolution may have far fewer nodes than others.
+            if self.shorten_blocks() {
+                self.learn_states(observer)?;
             }
         }
         Ok(())
     }
 
-    /// Revolutions of a block, from the nodes of one revolution each at the path's start, middle
-    /// and end. A sequential sampler can begin at the start only.
-    fn comfortable_block(&mut self) -> Result<f64> {
+    /// Learns the states of a sequential sampler, and where its nodes are densest.
+    fn learn_states(&mut self, observer: &dyn Observer) -> Result<()> {
+        let (mut state, mut states) = (Vec::new(), Vec::new());
+        let mut nodes = 0;
+        for index in 0..self.blocks() {
+            stop_if_cancelled(observer)?;
+            states.push(state.clone());
+            let Revolutions { start, end } = self.revolutions(index);
+            let own = self.sample_from(index, &mut state)?.len();
+            self.density = self.density.max(own as f64 / (end - start));
+            nodes += own;
+            check_points(self.distance(), end, nodes as f64 / end)?;
+        }
+        self.sampler_states = states;
+        Ok(())
+    }
+
+    /// Halves the revolutions of a block until few nodes lie on them where they are densest. Says whether it did.
+    fn shorten_blocks(&mut self) -> bool {
+        let before = self.block;
+        while self.block > 1.0 && self.block * self.density > COMFORTABLE_BLOCK {
+            self.block *= 0.5;
+        }
+        self.block < before
+    }
+
+    /// How far the path feeds on the part, mm.
+    fn distance(&self) -> f64 {
+        let range = self.preparation.task.range;
+        range.outer - range.inner
+    }
+
+    /// Counts the nodes of one revolution each at the path's start, middle and end. A sequential sampler can
+    /// begin at the start only.
+    fn look_at_density(&mut self) -> Result<()> {
         let last = (self.law.end() - 1.0).max(0.0).floor();
         let sequential = self.sampler.dependence() == Dependence::Sequential;
         let count = if sequential { 1 } else { 3 };
@@ -248,13 +282,7 @@ impl<'a> Plan<'a> {
             sparsest = sparsest.min(nodes.len());
         }
         self.density = densest as f64;
-        let range = self.preparation.task.range;
-        check_points(range.outer - range.inner, self.law.end(), sparsest as f64)?;
-        let mut block = BLOCK;
-        while block > 1.0 && block * densest as f64 > COMFORTABLE_BLOCK {
-            block *= 0.5;
-        }
-        Ok(block)
+        check_points(self.distance(), self.law.end(), sparsest as f64)
     }
 
     /// How many blocks there are.

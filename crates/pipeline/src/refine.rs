@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use turnpath_core::Dependence;
 
 use crate::Result;
-use crate::make::{BlockPoints, Depths, first_state, make};
+use crate::make::{BlockPoints, Depths, close_joints, first_state, make};
 use crate::observer::{Observer, Stage, stop_if_cancelled};
 use crate::order::one_at_a_time;
 use crate::plan::Plan;
@@ -47,7 +47,8 @@ pub struct Refinement {
 
 /// Halves segments until the played error is below the aim everywhere, or no segment can be halved
 /// any more. Gives how often each sampler segment is halved. Only the `chosen` blocks are refined, in
-/// their order, `batch` of them at a time. The others have no depths of their own.
+/// their order, `batch` of them at a time. The others have no depths of their own. A sequential solver
+/// needs all blocks: what it makes of one follows from those before.
 pub fn refine(
     plan: &Plan<'_>,
     batch: usize,
@@ -129,13 +130,18 @@ impl Refinement {
     ) -> Result<()> {
         observer.begin(Stage::Refine(round), dirty.len() as u64);
         let mut solver_state = first_state(plan);
+        // The last block that was made waits for the first point of the next one.
+        let mut waiting: Option<BlockPoints> = None;
         for some in dirty.chunks(batch.max(1)) {
             stop_if_cancelled(observer)?;
-            let blocks = self.make_runs(plan, &runs(some), solver_state.as_mut())?;
+            let made = self.make_runs(plan, &runs(some), solver_state.as_mut())?;
+            let mut blocks: Vec<BlockPoints> = waiting.take().into_iter().chain(made).collect();
+            close_joints(&mut blocks);
+            waiting = blocks.pop();
             self.play(plan, &blocks)?;
             observer.advance(some.len() as u64);
         }
-        Ok(())
+        self.play(plan, waiting.as_slice())
     }
 
     /// Makes runs of blocks: in parallel, unless the solver takes its state from one to the next.

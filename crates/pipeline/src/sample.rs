@@ -8,7 +8,7 @@ use turnpath_verify::AxesMotion;
 
 use crate::estimate::Estimate;
 use crate::lead::{LeadRun, LeadTask};
-use crate::make::{BlockPoints, Depths, first_state, make};
+use crate::make::{BlockPoints, Depths, first_state, is_sequential, make};
 use crate::observer::SilentObserver;
 use crate::options::PathOptions;
 use crate::order::one_at_a_time;
@@ -72,13 +72,22 @@ pub fn sample_path(
     let mut plan = schedule::plan(chain, preparation, observer)?;
     plan.time_steps = options.time_steps;
     let whole_block = plan.block();
-    plan.divide_for_sample();
+    // What refinement does with a block of such a path follows from all blocks before.
+    let refines_whole_path = options.refine && is_sequential(&plan);
+    if !refines_whole_path {
+        plan.divide_for_sample();
+    }
     let are_cut = plan.block() < whole_block;
     let strata = strata(plan.blocks());
-    let chosen: Vec<usize> = strata.iter().map(|stratum| stratum.chosen).collect();
-    plan.repeat(RepeatedBlocks::of(&chosen, plan.blocks()))?;
+    let refined: Vec<usize> = match refines_whole_path {
+        true => (0..plan.blocks()).collect(),
+        false => strata.iter().map(|stratum| stratum.chosen).collect(),
+    };
+    if !refines_whole_path {
+        plan.repeat(RepeatedBlocks::of(&refined, plan.blocks()))?;
+    }
     let depths = match options.refine {
-        true => refine(&plan, SAMPLED_BLOCKS, &chosen, observer)?,
+        true => refine(&plan, SAMPLED_BLOCKS, &refined, observer)?,
         false => Vec::new(),
     };
     let leads = options

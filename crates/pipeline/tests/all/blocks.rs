@@ -8,8 +8,8 @@ use crate::common::solvers::{Area, Disjoint, Exact, Spline};
 use crate::common::{Counting, K, Nodes, RIM, Saddle, Task, even, feed_of, inward, straight};
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{
-    Dependence, Direction, Part, Path, Result, Revolutions, Scalar, Tool, Velocities,
-    VelocitySolver,
+    Dependence, Direction, NodeList, Part, Path, Result, Revolutions, SamplerPlan, Scalar, Tool,
+    Velocities, VelocitySolver,
 };
 use turnpath_verify::{FirstTouch, Meter, Subject};
 
@@ -228,6 +228,52 @@ fn outward_runs_from_the_axis_to_the_rim() {
     assert!(path.x.windows(2).all(|x| x[1] > x[0]));
 }
 
+/// A sampler that goes through the path from its beginning. It has ten nodes on the first revolution, and 2000
+/// on others.
+#[derive(Clone, Default)]
+struct Dense(Arc<Mutex<Vec<Revolutions>>>);
+
+impl SamplerPlan for Dense {
+    fn place(&self, _: &Path<'_>, _: Revolutions, _: &mut NodeList) -> Result<()> {
+        panic!("a sequential sampler is asked in order");
+    }
+
+    fn dependence(&self) -> Dependence {
+        Dependence::Sequential
+    }
+
+    fn place_sequential(
+        &self,
+        _: &Path<'_>,
+        block: Revolutions,
+        _: &mut Vec<f64>,
+        nodes: &mut NodeList,
+    ) -> Result<()> {
+        self.0.lock().unwrap().push(block);
+        for turn in block.turns() {
+            nodes.extend(turn.subdivide(if turn.start < 1.0 { 10.0 } else { 2000.0 }));
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn blocks_are_short_where_a_sequential_sampler_is_dense_behind_the_first_revolution() {
+    let sampler = Dense::default();
+    let asked = sampler.0.clone();
+    let task = Task {
+        feed: inward(100.0),
+        sampler: Arc::new(sampler),
+        ..Task::default()
+    };
+    assert_eq!(task.unmeasured().len(), 99 * 2000 + 10 + 1);
+    let asked = asked.lock().unwrap();
+    // 50,000 nodes are comfortable.
+    let last = asked.last().unwrap();
+    assert_eq!((last.start, last.end), (96.0, 100.0));
+    assert!(asked.iter().any(|block| block.end - block.start == 16.0));
+}
+
 #[test]
 fn at_a_knot_x_has_the_mean_of_both_rates() {
     // 0.02 mm a revolution to N = 70.3, then 0.03 mm.
@@ -257,18 +303,9 @@ fn at_a_knot_x_has_the_mean_of_both_rates() {
     }
 }
 
-#[test]
-fn the_path_and_its_figures_are_the_same_on_any_number_of_threads() {
+fn assert_same_on_all_threads(task: &Task) {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let task = Task {
-            feed: inward(500.0),
-            sampler: even(11.0),
-            velocity: Arc::new(Spline { overlap: 64 }),
-            refined: true,
-            interpolation: 1e-5,
-            ..Task::default()
-        };
         let pool = pool.build().expect("a pool");
         let (path, outcome) = pool.install(|| task.path());
         (path, format!("{outcome:?}"))
@@ -276,6 +313,26 @@ fn the_path_and_its_figures_are_the_same_on_any_number_of_threads() {
     let alone = on(1);
     assert!(alone == on(4));
     assert!(alone == on(3));
+}
+
+#[test]
+fn the_path_and_its_figures_are_the_same_on_any_number_of_threads() {
+    assert_same_on_all_threads(&Task {
+        feed: inward(500.0),
+        sampler: even(11.0),
+        velocity: Arc::new(Spline { overlap: 64 }),
+        refined: true,
+        interpolation: 1e-5,
+        ..Task::default()
+    });
+    // With more threads more blocks are made at a time, and windows that disagree about their joint do not show it.
+    assert_same_on_all_threads(&Task {
+        feed: inward(1100.0),
+        velocity: Arc::new(Disjoint),
+        refined: true,
+        interpolation: 1e-5,
+        ..Task::default()
+    });
 }
 
 #[test]

@@ -208,6 +208,49 @@ fn where_one_block_of_the_sample_is_refined_the_others_are_not_played_again() {
     assert!(windows.len() > 2 * SAMPLED);
 }
 
+/// A solver whose Z wanders further off its rate from node to node, along the whole path.
+struct Wandering;
+
+impl VelocitySolver for Wandering {
+    fn dependence(&self) -> Dependence {
+        Dependence::Sequential
+    }
+
+    fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
+        self.solve_sequential(nodes, &mut Vec::new(), out)
+    }
+
+    fn solve_sequential(
+        &self,
+        nodes: Nodes<'_>,
+        state: &mut Vec<f64>,
+        out: Velocities<'_>,
+    ) -> Result<()> {
+        let Velocities { c, x, z } = out;
+        let mut off = state.first().copied().unwrap_or(0.0);
+        Exact.solve(nodes, Velocities { c, x, z: &mut *z })?;
+        let last = z.len() - 1;
+        for (k, z) in z.iter_mut().enumerate() {
+            *z += off;
+            // The last node is the next block's first.
+            off += if k < last { 2e-5 } else { 0.0 };
+        }
+        *state = vec![off];
+        Ok(())
+    }
+}
+
+/// What refinement adds follows from the whole path before.
+#[test]
+fn the_estimate_of_a_solver_that_goes_through_the_path_is_its_path() {
+    let task = task(Wandering, true);
+    let added = task.path().1.added_by_refine as f64;
+    let nodes = TURNS * STEPS;
+    assert!(added > 0.2 * nodes && added < 5.0 * nodes, "{added}");
+    let ratio = task.sample().0.control_points / (nodes + added);
+    assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+}
+
 #[test]
 fn a_solver_without_overlap_has_the_same_estimate() {
     let (solver, _) = Watched::from(f64::INFINITY);
