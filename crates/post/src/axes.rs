@@ -3,7 +3,7 @@
 use turnpath_core::DEG;
 use turnpath_core::toolpath::ControlPoint;
 
-use crate::fixed_point::{ONE, to_f64};
+use crate::fixed_point::{ONE, SHORT_ONE, to_f64};
 use crate::program_format::{ProgramFormat, TURN_DEG};
 
 /// A revolution in 10⁻¹² deg.
@@ -90,9 +90,25 @@ impl Axes {
 /// A time in steps, from 10⁻¹² of a unit that has `steps_per_unit` of them; `None` where no segment
 /// takes that long.
 pub(crate) fn steps_of(time: i128, steps_per_unit: i64, longest: i64) -> Option<i64> {
-    let steps = time.checked_mul(i128::from(steps_per_unit))? + ONE / 2;
-    let steps = i64::try_from(steps.div_euclid(ONE)).ok();
-    steps.filter(|steps| (1..=longest).contains(steps))
+    let steps = match short_steps(time, steps_per_unit) {
+        Some(steps) => steps,
+        None => {
+            let steps = time.checked_mul(i128::from(steps_per_unit))? + ONE / 2;
+            i64::try_from(steps.div_euclid(ONE)).ok()?
+        }
+    };
+    (1..=longest).contains(&steps).then_some(steps)
+}
+
+/// The steps of a time that 64 bits suffice for, which most times are; a division of 128 bits takes longer than all
+/// else of a line's time.
+#[inline(always)]
+fn short_steps(time: i128, steps_per_unit: i64) -> Option<i64> {
+    let parts = u64::try_from(time)
+        .ok()?
+        .checked_mul(u64::try_from(steps_per_unit).ok()?)?;
+    let steps = parts.checked_add(SHORT_ONE / 2)? / SHORT_ONE;
+    i64::try_from(steps).ok()
 }
 
 /// The times that a segment may take, for messages: from a step to the longest, in a unit that has

@@ -6,6 +6,8 @@ use crate::powers_of_ten::POWERS_OF_TEN;
 pub(crate) const PLACES: u32 = 12;
 /// 10⁻¹² of a unit.
 pub(crate) const ONE: i128 = 10i128.pow(PLACES);
+/// The same in 64 bits.
+pub(crate) const SHORT_ONE: u64 = 10u64.pow(PLACES);
 /// Most digits before the point: with them all sums fit into 128 bits by far.
 const MOST_DIGITS: usize = 15;
 /// Digits of any number that fits into 64 bits.

@@ -6,12 +6,11 @@ use super::clock::Clock;
 use super::plain::PlainWords;
 use super::scan::{Axis, Scanner, Word, split_comment};
 use crate::axes::{Axes, AxisWords, NAMES, steps_of, times};
-use crate::fixed_point::{ONE, PLACES};
+use crate::fixed_point::{ONE, PLACES, SHORT_ONE};
 use crate::post::{Grammar, PlainLines};
 use crate::program_format::ProgramFormat;
 
-/// [`ONE`] in 64 bits, and its fives.
-const SHORT_ONE: u64 = 10u64.pow(PLACES);
+/// The fives of [`ONE`].
 const FIVES: u64 = 5u64.pow(PLACES);
 /// Most bits that the controller may hold where 64 suffice: the fives have 28.
 const MOST_SHORT_BITS: u32 = 35;
