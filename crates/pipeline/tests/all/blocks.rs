@@ -249,7 +249,7 @@ impl SamplerPlan for Dense {
         _: &mut Vec<f64>,
         nodes: &mut NodeList,
     ) -> Result<()> {
-        self.0.lock().unwrap().push(block);
+        self.0.lock().expect("no panic").push(block);
         for turn in block.turns() {
             nodes.extend(turn.subdivide(if turn.start < 1.0 { 10.0 } else { 2000.0 }));
         }
