@@ -22,6 +22,7 @@ mod ending_plugins;
 mod first_mile;
 mod frozen_boundary;
 mod import;
+mod inputs_stay;
 mod long_programs;
 mod maps;
 mod new_plugin;

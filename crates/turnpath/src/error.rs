@@ -73,6 +73,12 @@ pub enum Error {
         /// The file, as the output is named.
         path: PathBuf,
     },
+    /// A lock of plugins would replace another kind of file.
+    #[error("{} is no lock of plugins, so it is not replaced", path.display())]
+    NoLock {
+        /// The file.
+        path: PathBuf,
+    },
     /// A plugin could not be loaded.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -198,6 +204,7 @@ impl Error {
             )
             | Self::Exists { .. }
             | Self::OutputIsInput { .. }
+            | Self::NoLock { .. }
             | Self::NoKey { .. }
             | Self::NoRunOfKey { .. } => Fault::Request,
             Self::Strategy { .. } | Self::RunLost => Fault::Plugin,
@@ -272,7 +279,9 @@ impl Error {
                 Some("remove the page first to have one without the figures of the path")
             }
             Self::Exists { .. } => Some("`--force` replaces it"),
-            Self::OutputIsInput { .. } => Some("give the output another name"),
+            Self::OutputIsInput { .. } | Self::NoLock { .. } => {
+                Some("give the output another name")
+            }
             Self::NoRunOfKey { .. } => Some(
                 "`turnpath ablate RECIPE --plan` lists the keys; they change with the recipe, its data \
                  and its plugins",

@@ -38,10 +38,14 @@ const PAGE_MARK_BYTES: u64 = 256;
 /// # Errors
 /// When another run has it, or something is in the way that would stop this one only at its end.
 pub fn open_folder(folder: &Path, job: &Job, dry_run: bool) -> Result<ResultFolder, FolderError> {
-    let names = job.file_names(dry_run);
-    let names = names.iter().map(String::as_str);
-    nothing_in_the_way(folder, names.chain([SUMMARY, PAGE]))?;
+    nothing_in_the_way(folder, result_files(job, dry_run))?;
     ResultFolder::open(folder)
+}
+
+/// The names of the files that a run writes without being asked for each.
+pub fn result_files(job: &Job, dry_run: bool) -> impl Iterator<Item = String> {
+    let own = [SUMMARY, PAGE].map(str::to_owned);
+    job.file_names(dry_run).into_iter().chain(own)
 }
 
 impl Job {
@@ -396,9 +400,9 @@ fn remove_page(path: &Path) -> Result<(), FileError> {
 
 /// A file where a folder must be, or anything but a file where one must be, is refused before the
 /// work.
-fn nothing_in_the_way<'a>(
+fn nothing_in_the_way(
     folder: &Path,
-    files: impl Iterator<Item = &'a str>,
+    files: impl Iterator<Item = String>,
 ) -> Result<(), FolderError> {
     let nearest = folder.ancestors().find(|part| part.exists());
     if let Some(file) = nearest.filter(|part| !part.is_dir()) {
@@ -407,7 +411,7 @@ fn nothing_in_the_way<'a>(
         return Err(FileError::of(folder)(error).into());
     }
     for name in files {
-        ResultFolder::can_have(folder, name)?;
+        ResultFolder::can_have(folder, &name)?;
     }
     Ok(())
 }

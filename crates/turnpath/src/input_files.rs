@@ -1,9 +1,10 @@
 //! The files that a command reads, so that its output takes the place of none of them.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::Error;
+use crate::job::Job;
 
 /// Refuses an output that would replace a file that the command reads, whatever path or link leads
 /// to it. A second hard link keeps its contents where the first is replaced, so it is another file.
@@ -24,5 +25,23 @@ pub fn refuse_as_output<'a>(
             path: output.to_owned(),
         }),
         false => Ok(()),
+    }
+}
+
+impl Job {
+    /// Refuses outputs that would replace the recipe or a data file that it names.
+    ///
+    /// # Errors
+    /// When one of them is such a file.
+    pub(crate) fn refuse_inputs_as_outputs(
+        &self,
+        outputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<(), Error> {
+        let named = self.data_files.iter();
+        let named = named.map(|used| self.recipe.resolve(&used.path));
+        let inputs: Vec<PathBuf> = named.chain([self.recipe.path().to_owned()]).collect();
+        outputs
+            .into_iter()
+            .try_for_each(|output| refuse_as_output(&output, inputs.iter().map(PathBuf::as_path)))
     }
 }

@@ -131,8 +131,13 @@ impl PluginsLock {
     /// Writes the lock of a catalogue into a file. An old one stays until the new one is whole.
     ///
     /// # Errors
-    /// When the file cannot be written, or the hash of a library cannot be calculated.
+    /// When the file is there and is no lock, when it cannot be written, or when the hash of a library cannot be
+    /// calculated.
     pub fn write(catalogue: &Catalogue, file: &Path) -> Result<(), Error> {
+        if file.is_file() && Self::load(file).is_err() {
+            let path = file.to_owned();
+            return Err(Error::NoLock { path });
+        }
         let text = Self::text_of(catalogue)?;
         let mut draft = Draft::begin(file)?;
         let written = draft.write_all(text.as_bytes());

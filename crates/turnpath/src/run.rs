@@ -16,7 +16,7 @@ use crate::diagnosis::{not_carried, of_measure};
 use crate::drawings::{DrawingFileError, Drawings};
 use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
-use crate::folder::{FolderSink, WholeResult, open_folder};
+use crate::folder::{FolderSink, WholeResult, open_folder, result_files};
 use crate::form::{FormPath, search_split};
 use crate::job::Job;
 use crate::memory::MemorySink;
@@ -200,6 +200,11 @@ impl Job {
         beside.drawings.can_be_in_result(folder)?;
         let rough_paths = self.rough_jobs()?;
         can_be_in_result(folder, &rough_paths, dry_run)?;
+        let names = rough_paths.iter().flat_map(|rough| rough.files(dry_run));
+        let names = names.chain(result_files(self, dry_run));
+        let pictures = plots.files().chain(beside.drawings.files());
+        let outputs = names.map(|name| folder.join(name));
+        self.refuse_inputs_as_outputs(outputs.chain(pictures.map(Path::to_owned)))?;
         let result = open_folder(folder, self, dry_run)?;
         let (mut of_rough, mut files) = (Vec::new(), Vec::new());
         for rough in &rough_paths {

@@ -56,6 +56,18 @@ pub fn names_other_folders(report: &RunReport) -> bool {
     !files.all(|file| ListedFile::may_be(&file.file))
 }
 
+/// Whether the summary of a folder lists this file.
+pub fn lists(report: &RunReport, folder: &Path, file: &Path) -> bool {
+    let Some(name) = ResultFolder::member(folder, file) else {
+        return false;
+    };
+    report
+        .files
+        .iter()
+        .flatten()
+        .any(|listed| listed.file == name)
+}
+
 /// The folder of a file.
 pub fn folder_of(file: &Path) -> PathBuf {
     match file.parent() {

@@ -9,7 +9,8 @@ use turnpath_report::{PathSketch, RunReport};
 
 use super::request::{DrawingFileError, DrawingRequest};
 use crate::error::Error;
-use crate::plots::can_be_made;
+use crate::plots::{can_be_made, place_of};
+use crate::summary::lists;
 
 /// The figures that are asked for.
 #[derive(Debug)]
@@ -68,13 +69,7 @@ impl Drawings {
 
     /// Refuses files that the result lists.
     pub fn leave_result(&self, folder: &Path, report: &RunReport) -> Result<(), DrawingFileError> {
-        let listed = report.files.iter().flatten();
-        let listed: Vec<&str> = listed.map(|file| file.file.as_str()).collect();
-        let in_result = |file: &&Path| {
-            let member = ResultFolder::member(folder, file);
-            member.is_some_and(|name| listed.contains(&name.as_str()))
-        };
-        match self.files().find(in_result) {
+        match self.files().find(|file| lists(report, folder, file)) {
             Some(file) => Err(DrawingFileError::InResult {
                 file: file.to_owned(),
             }),
@@ -104,7 +99,8 @@ impl Drawings {
         Ok(drafts)
     }
 
-    fn files(&self) -> impl Iterator<Item = &Path> {
+    /// The files that will be written.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
         self.0.iter().map(|drawing| drawing.file.as_path())
     }
 }
@@ -125,7 +121,7 @@ fn drawing_file(request: &DrawingRequest, folder: &Path) -> Result<DrawingFile, 
     };
     Ok(DrawingFile {
         figure: request.figure,
-        file: folder.join(&request.file),
+        file: place_of(&request.file, folder),
         size,
         form,
     })

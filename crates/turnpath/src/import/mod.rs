@@ -3,13 +3,14 @@
 mod recipe_text;
 mod surface_tables;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use turnpath_files::read_bounded;
 use turnpath_lens::{LensError, LensProblem, LensText, Selection, Side};
 use turnpath_recipe::{Diagnostic, Diagnostics};
 
 use crate::error::Error;
+use crate::input_files::refuse_as_output;
 use crate::recipe_file::write_recipe;
 use recipe_text::recipe_text;
 
@@ -30,6 +31,8 @@ pub struct ImportRequest {
 /// A recipe that was made of a design.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ImportedRecipe {
+    /// The file of the design.
+    pub file: PathBuf,
     /// Its text.
     pub text: String,
     /// What stands in the design and may matter, a line each. The recipe has them as comments.
@@ -64,6 +67,7 @@ pub fn import(file: &Path, request: &ImportRequest) -> Result<ImportedRecipe, Er
     let surface = read.map_err(|error| refused(file, error))?;
     let notes = surface.notes.iter();
     Ok(ImportedRecipe {
+        file: file.to_owned(),
         text: recipe_text(&surface, file),
         notes: notes
             .map(|note| format!("line {}: {}", note.line, note.text))
@@ -86,8 +90,10 @@ impl ImportedRecipe {
     /// Writes the recipe into a file.
     ///
     /// # Errors
-    /// When the file is there and is not to be replaced, or cannot be written.
+    /// When the file is there and is not to be replaced, when it is the one that was imported, or when it cannot
+    /// be written.
     pub fn write(&self, path: &Path, replace: bool) -> Result<(), Error> {
+        refuse_as_output(path, [self.file.as_path()])?;
         write_recipe(&self.text, path, replace)
     }
 }

@@ -1,7 +1,7 @@
 //! The plots of one part with their files, checked before the work.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use turnpath_core::{DEG, Part};
 use turnpath_files::{Draft, FileError, FolderError, ResultFolder};
@@ -10,6 +10,7 @@ use turnpath_verify::machined::Grid;
 
 use super::request::{MapGrid, MapRequest, PlotError, PlotRequest, check_grid};
 use crate::error::Error;
+use crate::summary::{FolderSummary, folder_of, lists};
 
 /// Places of a circle: every hundredth of a degree.
 const CIRCLE_PLACES: usize = 36_000;
@@ -128,13 +129,27 @@ impl Plots {
         Ok(())
     }
 
+    /// Refuses files that the result of their folder lists.
+    pub fn leave_results(&self) -> Result<(), PlotError> {
+        let is_listed = |file: &&Path| {
+            let folder = folder_of(file);
+            matches!(FolderSummary::of(&folder), FolderSummary::Read(report) if lists(&report, &folder, file))
+        };
+        match self.files().find(is_listed) {
+            Some(file) => Err(PlotError::InResult {
+                file: file.to_owned(),
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.files().next().is_none()
     }
 
     /// The files that will be written.
-    fn files(&self) -> impl Iterator<Item = &Path> {
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
         let maps = self.map.iter().map(|map| &map.file);
         let profiles = self.profiles.iter();
         let profiles = profiles.flat_map(|profile| [&profile.file, &profile.spectrum]);
@@ -162,7 +177,7 @@ fn map_plot(request: &MapRequest, part: &Part, folder: &Path) -> Result<MapPlot,
         MapGrid::Cartesian => Grid::cartesian(part, request.cells),
         MapGrid::Polar => Grid::polar(part, request.cells, request.cells),
     };
-    let file = folder.join(&request.file);
+    let file = place_of(&request.file, folder);
     Ok(MapPlot { file, form, grid })
 }
 
@@ -209,10 +224,51 @@ pub fn can_be_made(file: &Path, folder: &Path) -> Result<(), FileError> {
     Draft::begin(file).map(drop)
 }
 
+/// Where the file of a picture goes whose name is taken from a folder, which may still have to be made. Nothing
+/// leads through a folder that is not there: `..` is then the folder that it will be in.
+pub fn place_of(file: &Path, folder: &Path) -> PathBuf {
+    if folder.exists() {
+        return folder.join(file);
+    }
+    let mut place = folder.to_owned();
+    for part in file.components() {
+        match part {
+            Component::ParentDir if place.file_name().is_some() => _ = place.pop(),
+            Component::CurDir => {}
+            part => place.push(part),
+        }
+    }
+    place
+}
+
 /// Makes the folder of the files, if it is not there.
 pub fn make_folder(folder: &Path) -> Result<(), FileError> {
     fs::create_dir_all(folder).map_err(|error| FileError {
         path: folder.to_owned(),
         error,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_beside_a_folder_that_is_still_to_be_made_goes_beside_it() {
+        let here = tempfile::tempdir().unwrap();
+        let at = |file: &str, folder: &str| place_of(Path::new(file), &here.path().join(folder));
+        assert_eq!(at("../m.gsf", "fresh"), here.path().join("m.gsf"));
+        assert_eq!(
+            at("./m.gsf", "fresh/new"),
+            here.path().join("fresh/new/m.gsf")
+        );
+        assert_eq!(at("../../m.gsf", "fresh/new"), here.path().join("m.gsf"));
+        assert_eq!(at("/m.gsf", "fresh"), Path::new("/m.gsf"));
+        // A folder that is there may be a link, so the system follows its `..`.
+        assert_eq!(at("../m.gsf", ""), here.path().join("../m.gsf"));
+        assert_eq!(
+            place_of(Path::new("../../../m.gsf"), Path::new("fresh")),
+            Path::new("../../m.gsf")
+        );
+    }
 }

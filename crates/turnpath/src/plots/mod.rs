@@ -6,5 +6,5 @@ mod files;
 mod request;
 
 pub use draw::{PlayedPath, draw};
-pub use files::{Plots, can_be_made, make_folder};
+pub use files::{Plots, can_be_made, make_folder, place_of};
 pub use request::{GRID_POINTS, MapGrid, MapRequest, PlotError, PlotRequest, check_grid};

@@ -100,6 +100,12 @@ pub enum PlotError {
         /// The file.
         file: PathBuf,
     },
+    /// A result beside the plot lists a file of this name, whose bytes are to stay.
+    #[error("{} is a file of a result: choose another name or another folder", file.display())]
+    InResult {
+        /// The file.
+        file: PathBuf,
+    },
     /// Plots are files, and the outputs have no folder.
     #[error("maps, profiles, circles and spectra need an output folder")]
     NoFolder,

@@ -69,10 +69,15 @@ impl GridWriter {
     }
 }
 
-/// The error of a file that takes no more.
-pub fn not_written(file: &Path, error: impl Into<io::Error>) -> FileError {
+/// The error of a CSV file that takes no more, as the system gave it.
+pub fn not_written(file: &Path, error: impl Into<csv::Error>) -> FileError {
+    let error = error.into();
+    let error = match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    };
     FileError {
         path: file.to_owned(),
-        error: error.into(),
+        error,
     }
 }

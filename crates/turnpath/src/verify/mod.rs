@@ -8,7 +8,7 @@ mod anomalies;
 mod remake;
 mod whole;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use turnpath_core::RadialRange;
 use turnpath_core::toolpath::SegmentShape;
@@ -27,6 +27,7 @@ use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
 use crate::folder::rough_toolpath;
+use crate::input_files::refuse_as_output;
 use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
 use crate::result_check::result_check;
@@ -55,6 +56,12 @@ pub fn verify(
     let recipe = rough.as_ref().unwrap_or(recipe);
     let target = Target::new(recipe, catalogue)?;
     let plots = Plots::new(request, &recipe.part, folder)?;
+    let read = target.data_files.paths();
+    let read = read.iter().map(PathBuf::as_path);
+    let read: Vec<&Path> = read.chain([file, recipe.path()]).collect();
+    let mut outputs = plots.files();
+    outputs.try_for_each(|output| refuse_as_output(output, read.iter().copied()))?;
+    plots.leave_results()?;
     plots.try_folder(folder)?;
     let file = SourceFile::new(file, recipe, target.subject.compensates_nose)?;
     target.verify(&file, (&plots, folder), observer)
