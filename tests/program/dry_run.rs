@@ -1,4 +1,4 @@
-//! `--dry-run`: four stops at the rim, and nothing near the part. The test reads the files by its own few
+//! `--dry-run`: stops at the rim, and nothing near the part. The test reads the files by its own few
 //! lines, apart from turnpath's readers.
 
 use crate::support::bench::Bench;
@@ -124,6 +124,23 @@ fn a_dry_run_says_how_high_the_part_is_at_each_stop() {
         ] {
             assert!(text.contains(says), "{says}: {text}");
         }
+    }
+}
+
+/// z = 0.16 x y is the same at all quarters of a turn, and 0.5 mm at 45 deg.
+#[test]
+fn a_part_that_is_alike_at_all_quarters_has_a_stop_that_shows_the_sense_of_c() {
+    let recipe = saddle("").replace("\n\n[part.pose]\nx = \"0.5 mm\"", "");
+    let bench = Bench::with(&recipe);
+    bench.line("run recipe.toml -o out --dry-run").ends(0);
+    for file in FILES {
+        let text = bench.read(format!("out/{file}"));
+        let (stops, _) = stops(&text);
+        let c: Vec<f64> = stops.iter().map(|stop| stop[0]).collect();
+        assert_eq!(c, [0.0, 45.0, 90.0, 180.0, 270.0], "{text}");
+        let says = "C = 45 deg of the path: the part is 500.0 um higher than at C = 0";
+        assert!(text.contains(says), "{text}");
+        assert!(text.contains("it stops 5 times"), "{text}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! The verdict of a run: what holds and what does not, with the figures.
 
-use turnpath_report::text::{grouped, limit_amount, limit_name};
+use turnpath_report::text::{grouped, limit_amount, limit_name, warnings};
 use turnpath_report::{LimitFigure, RunReport, unit};
 
 use crate::html::{element, escaped, row};
@@ -21,6 +21,7 @@ pub fn verdict(report: &RunReport) -> String {
         ),
     };
     let mut html = element("p", class, &escaped(&sentence));
+    html += &warnings_list(report);
     html += &facts(report);
     let rows: String = verdict
         .entries()
@@ -40,6 +41,21 @@ pub fn verdict(report: &RunReport) -> String {
         );
     }
     html
+}
+
+/// What a person should read beside the verdict.
+fn warnings_list(report: &RunReport) -> String {
+    let warnings = warnings(report);
+    let items: String = warnings
+        .iter()
+        .map(|warning| element("li", "", &escaped(warning)))
+        .collect();
+    match items.is_empty() {
+        true => items,
+        false => {
+            element("p", "", "No limit is held to these:") + &element("ul", "warnings", &items)
+        }
+    }
 }
 
 fn word(holds: bool) -> &'static str {
@@ -94,13 +110,20 @@ fn figures(report: &RunReport, name: &str) -> (String, String) {
                 .map(|lead| (-lead.smallest_clearance).max(0.0));
             lengths(deepest, tolerance.deepest())
         }
-        "programs" => (format!("{} programs", report.programs.len()), String::new()),
+        "programs" => (
+            count(report.programs.len(), "program", "programs"),
+            String::new(),
+        ),
         "passes" => (
-            format!("{} passes", report.rough_paths.len()),
+            count(report.rough_paths.len(), "pass", "passes"),
             String::new(),
         ),
         _ => Default::default(),
     }
+}
+
+fn count(of: usize, one: &str, many: &str) -> String {
+    format!("{of} {}", if of == 1 { one } else { many })
 }
 
 /// The figures that one looks for first.

@@ -153,6 +153,19 @@ fn the_verdict_stands_first_and_says_what_fails() {
 }
 
 #[test]
+fn warnings_stand_beside_the_verdict() {
+    let mut page = support::run_page();
+    assert!(!run_page(&page).contains("class=\"warnings\""));
+    page.report.path.axis_crossing.x = 0.585;
+    let text = run_page(&page);
+    let warning = text
+        .find("<li>X crosses the axis by 585")
+        .expect("a warning");
+    assert!(warning < text.find("<h2>").expect("a section"));
+    assert!(text.contains("<td>1 program</td>"));
+}
+
+#[test]
 fn a_page_without_a_sketch_says_so_and_has_the_surface() {
     let mut page = support::run_page();
     page.sketch = None;

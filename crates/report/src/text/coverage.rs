@@ -59,20 +59,25 @@ fn key(overrun: Overrun) -> String {
     }
 }
 
-/// The warning where X crosses the axis.
+/// The warning where X crosses the axis, as a line.
 pub fn axis_crossing(crossing: &AxisCrossing) -> String {
+    let warning = axis_crossing_warning(crossing);
+    warning.map_or_else(String::new, |warning| line("warning", warning))
+}
+
+/// The warning where X crosses the axis; `None` where it does not.
+pub fn axis_crossing_warning(crossing: &AxisCrossing) -> Option<String> {
     if crossing.x <= SMALLEST_CROSSING {
-        return String::new();
+        return None;
     }
     let x = small_length(crossing.x);
     let why = match crossing.contact <= SMALLEST_CROSSING {
         true => "as the normal of a tilted centre asks",
         false => "since the feed goes on there",
     };
-    line(
-        "warning",
-        format!("X crosses the axis by {x}, {why}; beyond it the part moves against the edge"),
-    )
+    Some(format!(
+        "X crosses the axis by {x}, {why}; beyond it the part moves against the edge"
+    ))
 }
 
 #[cfg(test)]

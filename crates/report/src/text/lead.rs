@@ -22,12 +22,17 @@ pub fn lead(lead: &LeadReport, clears: Option<bool>) -> String {
     }
     let label = if lead.layout.is_some() { "" } else { "lead" };
     text += &line(label, lowest(lead, clears));
-    if lead.axis_crossing > SMALLEST_CROSSING {
-        let crossing = small_length(lead.axis_crossing);
-        let crossing = format!("X crosses the axis by {crossing} on the way from or to the part");
-        text += &line("lead warning", crossing);
+    if let Some(warning) = lead_warning(lead) {
+        text += &line("lead warning", warning);
     }
     text + &exceeded(&lead.limits, "lead ")
+}
+
+/// The warning where X crosses the axis on a lead; `None` where it does not.
+pub fn lead_warning(lead: &LeadReport) -> Option<String> {
+    let crossing = small_length(lead.axis_crossing);
+    let crosses = lead.axis_crossing > SMALLEST_CROSSING;
+    crosses.then(|| format!("X crosses the axis by {crossing} on the way from or to the part"))
 }
 
 fn lowest(lead: &LeadReport, clears: Option<bool>) -> String {

@@ -19,6 +19,7 @@ mod run;
 mod servo;
 mod tool_fit;
 mod unreached;
+mod warnings;
 
 pub use check::check;
 pub use file::file;
@@ -26,3 +27,4 @@ pub use map_comparison::map_comparison;
 pub use numbers::{bytes, grouped, limit_amount, limit_name, millimetres, nose_radius};
 pub use part_shape::refused_check;
 pub use run::{run, verified_figures};
+pub use warnings::warnings;

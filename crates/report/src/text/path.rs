@@ -105,11 +105,18 @@ fn arms(path: &PathReport) -> String {
     })
 }
 
-/// The warning where the path takes the nose radius as 0.
+/// The warning where the path takes the nose radius as 0, as lines.
 fn real_nose(nose: Option<&RealNose>) -> String {
-    let Some(nose) = nose else {
-        return String::new();
-    };
+    let lines = nose.map(|nose| {
+        let [gouge, left] = real_nose_warning(nose);
+        let left = left.map(|left| line("", left));
+        line("warning", gouge.unwrap_or_default()) + &left.unwrap_or_default()
+    });
+    lines.unwrap_or_default()
+}
+
+/// The warning where the path takes the nose radius as 0: how deep the real nose goes, and what it leaves.
+pub fn real_nose_warning(nose: &RealNose) -> [Option<String>; 2] {
     let point = |point: &SurfacePoint| {
         let amount = small_length(point.error.abs());
         let [x, y] = [point.x, point.y].map(|mm| millimetres(mm, 4));
@@ -120,11 +127,9 @@ fn real_nose(nose: Option<&RealNose>) -> String {
         false => "gouges nowhere".to_owned(),
     };
     let text = format!("the path takes the nose radius as 0; the real nose {gouge}");
-    let left = match nose.highest.error > 0.0 {
-        true => line("", format!("and leaves up to {}", point(&nose.highest))),
-        false => String::new(),
-    };
-    line("warning", text) + &left
+    let leaves = nose.highest.error > 0.0;
+    let left = leaves.then(|| format!("and leaves up to {}", point(&nose.highest)));
+    [Some(text), left]
 }
 
 fn surface_error(error: Option<&SurfaceError>) -> String {

@@ -16,7 +16,8 @@ pub fn remarks(remarks: &[Remark]) -> String {
         .collect()
 }
 
-fn sentence(remark: &Remark) -> String {
+/// A remark as a sentence.
+pub fn sentence(remark: &Remark) -> String {
     match remark {
         Remark::RoughResidual { residual } => {
             let residual = small_length(*residual);
