@@ -80,13 +80,14 @@ pub struct PartLines {
 
 impl PartName {
     /// The name of part `number` of a program. Controllers differ in the characters that they take in names,
-    /// so only letters, digits and `-` and `_` are kept, in lower case.
+    /// so only letters, digits and `-` and `_` are kept, in lower case. A character beyond ASCII becomes its number,
+    /// so that programs whose names differ in it have parts of different names.
     pub fn of(program: &str, number: u32, numbers: &PartNumbers) -> Self {
         let (stem, extension) = program.rsplit_once('.').unwrap_or((program, ""));
         let plain = |c: char| match c {
-            'a'..='z' | '0'..='9' | '-' | '_' => c,
-            'A'..='Z' => c.to_ascii_lowercase(),
-            _ => '_',
+            'a'..='z' | 'A'..='Z' | '0'..='9' | '-' | '_' => c.to_ascii_lowercase().to_string(),
+            _ if c.is_ascii() => "_".to_owned(),
+            _ => format!("_{:x}", u32::from(c)),
         };
         let stem: String = stem.chars().map(plain).collect();
         let stem = format!("{stem}-part-{number}");
@@ -102,6 +103,14 @@ impl PartName {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_that_differ_in_a_letter_of_any_alphabet_have_parts_of_different_names() {
+        let of = |program: &str| PartName::of(program, 7, &PartNumbers::ALONE).file;
+        assert_eq!(of("Linse 5-A_b.mpf"), "linse_5-a_b-part-7.mpf");
+        assert_eq!(of("Linse Ä.mpf"), "linse__c4-part-7.mpf");
+        assert_eq!(of("Linse Ö.mpf"), "linse__d6-part-7.mpf");
+    }
 
     /// The hundreds of the paths do not meet, and none reaches the programs of codes.
     #[test]
