@@ -1,14 +1,16 @@
 //! The files of a run: begun with its first control points, and named together when all is done.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{Section, SectionBlock};
-use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
+use turnpath_files::{
+    Contents, Draft, FileError, FolderError, ListedFile, ResultFolder, WholeFile,
+};
 use turnpath_page::is_page;
 use turnpath_pipeline::{DraftSink, Estimate, Observer, Outcome, Sink};
 use turnpath_post::{
@@ -368,7 +370,9 @@ impl WholeResult {
     ) -> Result<Vec<PathBuf>, FolderError> {
         match page {
             Some(page) => self.files.push(self.whole(PAGE, page)?),
-            None => remove_page(&self.folder.path().join(PAGE))?,
+            None => own_page(self.folder.path())?
+                .into_iter()
+                .for_each(|page| self.folder.outdates(page)),
         }
         let summary = self.whole(SUMMARY, summary)?;
         let paths = self.files.iter().chain([&summary]);
@@ -386,15 +390,18 @@ impl WholeResult {
     }
 }
 
-/// Removes a page that turnpath made; any other file stays.
-fn remove_page(path: &Path) -> Result<(), FileError> {
+/// The page that turnpath made in a folder; `None` if there is none, or one that is somebody else's.
+fn own_page(folder: &Path) -> Result<Option<ListedFile>, FileError> {
+    let path = folder.join(PAGE);
     let mut beginning = Vec::new();
     let read =
-        File::open(path).and_then(|file| file.take(PAGE_MARK_BYTES).read_to_end(&mut beginning));
+        File::open(&path).and_then(|file| file.take(PAGE_MARK_BYTES).read_to_end(&mut beginning));
     match read {
-        Ok(_) if is_page(&beginning) => fs::remove_file(path).map_err(FileError::of(path)),
-        // There is none, or one that is somebody else's.
-        _ => Ok(()),
+        Ok(_) if is_page(&beginning) => {
+            let contents = Contents::of_file(&path).map_err(FileError::of(&path))?;
+            Ok(Some(ListedFile::new(PAGE, &contents)))
+        }
+        _ => Ok(None),
     }
 }
 

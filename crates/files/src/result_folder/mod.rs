@@ -42,6 +42,8 @@ const PART: &str = ".turnpath.part-";
 pub struct ResultFolder {
     folder: PathBuf,
     parts: AtomicU64,
+    /// Files that go when the result gets its names, beside those that the index before lists.
+    outdated: Vec<ListedFile>,
     // Dropped in this order.
     staging: Staging,
     _hidden: MadeFolders,
@@ -70,6 +72,7 @@ impl ResultFolder {
         Ok(Self {
             folder: folder.to_owned(),
             parts: AtomicU64::new(0),
+            outdated: Vec::new(),
             staging: staging.map_err(FileError::of(folder))?,
             _hidden: hidden,
             _claim: claim,
@@ -143,6 +146,11 @@ impl ResultFolder {
         Draft::begin_as(temporary, path.to_owned(), None)
     }
 
+    /// Lets a file of the folder that no index lists go when the result gets its names, if it still has these bytes.
+    pub fn outdates(&mut self, file: ListedFile) {
+        self.outdated.push(file);
+    }
+
     /// Makes the files the result of the folder; `index` is the one that lists them. What only the
     /// index before lists is removed.
     ///
@@ -179,7 +187,8 @@ impl ResultFolder {
         let names: Vec<&str> = members.iter().filter_map(WholeFile::member).collect();
         let index = index.member().unwrap_or_default();
         let plan = Plan::new(&self.folder, index, &names);
-        let plan = plan.map_err(FileError::of(&self.folder.join(index)))?;
+        let mut plan = plan.map_err(FileError::of(&self.folder.join(index)))?;
+        plan.remove.extend(self.outdated.iter().cloned());
         let mut draft = Draft::begin_as(path.clone(), path.clone(), Some(PLAN.to_owned()))?;
         let written = plan.text().and_then(|text| draft.write_all(&text));
         written.map_err(FileError::of(&path))?;

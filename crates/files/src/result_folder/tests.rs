@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
+use crate::Contents;
 
 /// The names and texts of all that is in a folder.
 fn found(folder: &Path) -> BTreeMap<String, String> {
@@ -144,6 +145,32 @@ fn a_name_that_something_else_has_stops_a_commit_which_then_goes_on() {
     drop(ResultFolder::open(folder).unwrap());
     assert_eq!(names(folder), ["index.json", "new", "table"]);
     assert_eq!(found(folder)["table"], "2");
+}
+
+#[test]
+fn what_a_result_outdates_goes_with_its_names_and_no_earlier() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    make(folder, &[("table", "1")]).unwrap();
+    fs::write(folder.join("page"), "2").unwrap();
+    let page = Contents::of_file(&folder.join("page")).unwrap();
+    let begin = || {
+        let mut result = ResultFolder::open(folder).unwrap();
+        result.outdates(ListedFile::new("page", &page));
+        result
+    };
+    drop(begin());
+    assert_eq!(names(folder), ["index.json", "page", "table"]);
+    let result = begin();
+    let index = draft(&result, "index.json", "{}");
+    result.commit(Vec::new(), index).unwrap();
+    assert_eq!(names(folder), ["index.json"]);
+    // With other bytes it is somebody else's.
+    fs::write(folder.join("page"), "3").unwrap();
+    let result = begin();
+    let index = draft(&result, "index.json", "{}");
+    result.commit(Vec::new(), index).unwrap();
+    assert_eq!(names(folder), ["index.json", "page"]);
 }
 
 #[test]
