@@ -202,7 +202,9 @@ fn command_before<'a>(page: &'a str, block: &str) -> Vec<&'a str> {
     let (before, _) = page.split_once(block).expect("the block");
     let (_, command) = before.rsplit_once("`turnpath ").expect("a command");
     let (words, _) = command.split_once('`').expect("its end");
-    words.split_whitespace().collect()
+    // Words with brackets stand in the quotes of a shell; none has a blank.
+    let bare = |word: &'a str| word.trim_matches('\'');
+    words.split_whitespace().map(bare).collect()
 }
 
 #[test]

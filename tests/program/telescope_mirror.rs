@@ -28,7 +28,8 @@ fn the_commands_of_the_telescope_mirror_print_what_the_page_quotes() {
     let commands = console(&page);
     assert_eq!(commands.len(), 5);
     for (command, quoted) in commands {
-        let said = bench.line(command).ends(0);
+        // Words with brackets stand in the quotes of a shell; none has a blank.
+        let said = bench.line(&command.replace('\'', "")).ends(0);
         assert_eq!(
             format!("{}{}", said.stdout, said.stderr),
             quoted,
