@@ -103,7 +103,7 @@ pub struct WorkArgs {
     /// Print no summary and no progress; the exit status says the verdict
     #[arg(short, long, conflicts_with_all = ["verbose", "format"])]
     pub quiet: bool,
-    /// Say on standard error how long each stage took, and what was counted
+    /// Say on standard error how long each stage took, and what was counted (run, verify, report)
     #[arg(short, long)]
     pub verbose: bool,
 }
@@ -297,7 +297,8 @@ pub enum TableLanguage {
 pub struct VerifyArgs {
     #[command(flatten)]
     pub recipe: RecipeArgs,
-    /// The tool path to measure: a toolpath.csv, or a program of a post (.pmc, .ppmc, .ascript, .mpf)
+    /// The tool path to measure: a toolpath.csv, or a program of a post (.pmc, .ppmc, .ascript, .mpf, .ncp,
+    /// .cnc, .nc, .ngc), also with .zst behind it
     pub file: PathBuf,
     /// Where maps, profiles, circles and the spectrum go; the present folder unless given
     #[arg(short, long, value_name = "DIR")]

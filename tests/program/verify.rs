@@ -342,3 +342,30 @@ fn figures_that_overflow_are_null_and_not_zero() {
     assert_eq!(error["rms_nm"], Value::Null, "{error}");
     assert_eq!(error["sq_nm"], Value::Null, "{error}");
 }
+
+#[test]
+fn a_call_without_a_file_or_with_a_folder_says_what_is_missing() {
+    let bench = made();
+    let said = bench.line("verify recipe.toml").ends(2);
+    assert!(
+        said.stderr.contains("`turnpath verify recipe.toml FILE`"),
+        "{said}"
+    );
+    let said = bench.line("verify recipe.toml out").ends(4);
+    assert!(
+        said.stderr.contains("cannot read out: it is a folder"),
+        "{said}"
+    );
+}
+
+#[test]
+fn the_beginning_of_a_path_does_not_reach_the_whole_part() {
+    let recipe = changed(SADDLE, "overrun = \"none\"", "overrun = \"contact\"");
+    let bench = made_of(&recipe);
+    let table = bench.read("out/toolpath.csv");
+    let beginning: Vec<&str> = table.lines().take(400).collect();
+    bench.write("beginning.csv", beginning.join("\n") + "\n");
+    let said = bench.line("verify recipe.toml beginning.csv").ends(1);
+    let reached = "coverage         not reached             EXCEEDED";
+    assert!(said.stdout.contains(reached), "{said}");
+}

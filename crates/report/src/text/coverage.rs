@@ -7,6 +7,9 @@ use crate::verdict::within;
 
 use super::numbers::{against, line, small_length};
 
+/// The verdict where the path does not come to an edge of the part.
+const NOT_REACHED: &str = " not reached             EXCEEDED";
+
 /// The verdict, where there is one, and each edge where more than the residual stays.
 pub fn coverage(
     coverage: &Coverage,
@@ -17,7 +20,10 @@ pub fn coverage(
     let mut texts = Vec::new();
     let allowed = tolerance.most_material().unwrap_or(f64::INFINITY);
     if let Some(holds) = verdict {
-        texts.push(against(coverage.largest(), allowed, holds));
+        texts.push(match coverage.largest() {
+            largest if largest.is_finite() => against(largest, allowed, holds),
+            _ => NOT_REACHED.to_owned(),
+        });
     }
     for (name, uncut) in coverage.edges() {
         if !within(uncut.height.unwrap_or(f64::INFINITY), allowed) {

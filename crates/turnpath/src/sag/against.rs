@@ -113,7 +113,9 @@ fn read_map(source: &MapSource) -> Result<Map, Error> {
     let mut map = turnpath_maps::read(&name, &bytes, &conventions).map_err(|error| {
         let file = file.clone();
         let error = NoMap { file, error };
-        let diagnostic = Diagnostic::from_error(&error);
+        let options =
+            "these keys of a recipe are options here: --map-format, --xy-unit, --z-unit, --pitch";
+        let diagnostic = Diagnostic::from_error(&error).with_helps([options.to_owned()]);
         Error::refused_by(turnpath_recipe::Diagnostics::from(diagnostic), error)
     })?;
     if source.flip_x {
