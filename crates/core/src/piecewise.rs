@@ -40,8 +40,9 @@ impl Piece {
         shifted[1]
     }
 
-    /// The first two coefficients, where all others are zero and change no bit: a sum with a rate of zero could
-    /// change its sign. Infinity times zero is no number, so a line holds for finite places alone.
+    /// The value and the rate of a line; `None` if the piece is none. Only a line whose rate is not zero has the bits
+    /// of the whole polynomial, and only at finite places: a sum with a rate of zero could change its sign, and
+    /// infinity times zero is no number.
     fn line(&self) -> Option<[f64; 2]> {
         let [value, rate, others @ ..] = self.coefficients;
         (rate != 0.0 && others == [0.0; 4]).then_some([value, rate])

@@ -91,6 +91,17 @@ impl PathBlock {
         }
     }
 
+    /// A block of these points, between which a controller plays this.
+    pub fn of(shape: SegmentShape, points: impl IntoIterator<Item = ControlPoint>) -> Self {
+        let points = points.into_iter();
+        let mut block = Self {
+            shape,
+            ..Self::with_capacity(points.size_hint().0)
+        };
+        points.for_each(|point| block.push(point));
+        block
+    }
+
     /// The number of control points.
     pub fn len(&self) -> usize {
         self.t.len()

@@ -36,8 +36,8 @@ struct LawLine {
 }
 
 impl LawLine {
-    /// The line of the law where a block lies, C of which rises. `None` if the law is no line there. The path begins
-    /// with so many turns of C.
+    /// The line of the law over the turns of a block, on which C grows. `None` if the law is no line there. The path
+    /// begins with so many turns of C.
     fn over(law: &SpiralLaw, start_turns: f64, points: &PathBlock) -> Option<Self> {
         let n = |c: &f64| c / TAU - start_turns;
         let (first, last) = (n(points.c.first()?), n(points.c.last()?));

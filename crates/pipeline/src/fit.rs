@@ -24,7 +24,7 @@ struct KnownCurvature {
     range: RadialRange,
     /// The largest curvature there.
     largest: Extreme,
-    /// The most curved place under the last nose of which a search has found that it does not fit.
+    /// The most curved place that the last refused nose touches.
     too_hollow: Option<Extreme>,
 }
 

@@ -106,7 +106,9 @@ fn covers(law: &SpiralLaw, task: &Task) -> CheckResult {
         Direction::Outward => (start, end),
         Direction::Inward => (end, start),
     };
-    if low > inner + SLACK || high < outer - SLACK {
+    // No number is refused too.
+    let covers = low <= inner + SLACK && high >= outer - SLACK;
+    if !covers {
         return Err(format!(
             "the law runs from ρ = {start} mm to {end} mm and leaves some of the part uncut; it must \
              cover {inner} mm to {outer} mm"

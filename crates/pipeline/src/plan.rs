@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
+use turnpath_core::toolpath::SegmentShape;
 use turnpath_core::{
     Dependence, NodeList, Overrun, Path, Revolutions, SamplerPlan, SpindleLaw, SpiralLaw,
 };
@@ -283,6 +284,11 @@ impl<'a> Plan<'a> {
         }
         self.density = densest as f64;
         check_points(self.distance(), self.law.end(), sparsest as f64)
+    }
+
+    /// What the controller plays between control points.
+    pub fn segment_shape(&self) -> SegmentShape {
+        self.chain.velocity.strategy.segments()
     }
 
     /// How many blocks there are.

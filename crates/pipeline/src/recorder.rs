@@ -136,7 +136,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         }
     }
 
-    /// Whether with what pictures need; `None` where nothing is measured.
+    /// Whether the measurement keeps what pictures need; `None` if nothing is measured.
     fn keeps_sketch(&self) -> Option<bool> {
         self.measurement.as_deref().map(Measurement::keeps_sketch)
     }
@@ -205,8 +205,8 @@ fn take<S: Sink + ?Sized>(
 }
 
 impl BlockTask {
-    /// Measures the block with the joint with the next block, and encodes it without: `sketch` says
-    /// whether with what pictures need, `None` that nothing is measured.
+    /// Measures the block with the joint with the next block, and encodes it without the joint. `sketch` says whether
+    /// the measurement keeps what pictures need; it is `None` if nothing is measured.
     fn record<S: Sink + ?Sized>(
         self,
         plan: &Plan<'_>,

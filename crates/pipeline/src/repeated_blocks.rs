@@ -20,7 +20,6 @@ impl RepeatedBlocks {
         let beside = chosen.iter().map(|of| (*of).clamp(1, most));
         let mut repeated: Vec<usize> = beside.filter(|of| *of < blocks).collect();
         repeated.dedup();
-        // The last block may be shorter than the others.
         let halved = chosen.iter().filter(|of| **of + 1 < blocks).copied();
         Self {
             chosen: chosen.to_vec(),

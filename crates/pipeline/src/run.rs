@@ -1,6 +1,7 @@
 //! The whole run: the law, then every block made, played back, measured and delivered in order. At the
-//! first segment that is to be halved, what was delivered is dropped. The path is then refined, and
-//! all its blocks are made, measured and delivered anew.
+//! first segment that is to be halved, or at the first block that the sink cannot encode, what was
+//! delivered is dropped. The path is then refined, and all its blocks are made, measured and delivered
+//! anew.
 
 use turnpath_core::toolpath::Section;
 

@@ -201,13 +201,8 @@ fn include(plan: &Plan<'_>, block: &BlockPoints, all: &mut [f64]) {
     for half in (first / PI).floor() as usize..(last / PI).ceil() as usize {
         let from = before(PI * half as f64).saturating_sub(1);
         let to = before(PI * (half + 1) as f64).min(points.len() - 1);
-        let mut part = PathBlock {
-            shape: points.shape,
-            ..PathBlock::default()
-        };
-        (from..=to)
-            .filter_map(|index| points.get(index))
-            .for_each(|point| part.push(point));
+        let part = (from..=to).filter_map(|index| points.get(index));
+        let part = PathBlock::of(points.shape, part);
         let figures = AxesMotion::of(&part).against(machine).into_iter();
         let of_limits = figures.map(|figure| figure.speed_factor());
         if let Some(headroom) = all.get_mut(half) {

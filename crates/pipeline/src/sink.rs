@@ -24,7 +24,8 @@ pub trait Sink: Send + Sync {
     /// Puts a block into the form that this sink keeps.
     ///
     /// # Errors
-    /// When the form cannot carry the block. The run then ends with [`RunError::Sink`].
+    /// When the form cannot carry the block. If the path may still be refined, the run drops the draft, refines the
+    /// path and encodes it anew. Else it ends with [`RunError::Sink`].
     ///
     /// [`RunError::Sink`]: crate::RunError::Sink
     fn encode(&self, block: &SectionBlock<'_>) -> Result<Self::Block, Self::Error>;

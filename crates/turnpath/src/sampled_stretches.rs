@@ -55,11 +55,7 @@ fn stretch<A, E>(
     measure: impl Fn(&SectionBlock<'_>) -> Result<A, E>,
 ) -> Option<Result<SampledStretch<A>, E>> {
     let first = points.get(0).filter(|_| points.len() > 1)?;
-    let mut rest = PathBlock {
-        shape: points.shape,
-        ..PathBlock::default()
-    };
-    points.points().skip(1).for_each(|point| rest.push(point));
+    let rest = PathBlock::of(points.shape, points.points().skip(1));
     let measured = measure(&SectionBlock {
         section,
         opens_section: false,

@@ -1,6 +1,6 @@
 //! Coverage: the material that no pass has cut at the rim, at the hole and around the axis.
 //!
-//! The figure of an edge of the part is that of module `edge`.
+//! The figure of an edge of the part is that of module `part_edge`.
 //!
 //! Around the axis the figure is the highest cusp on one line through the axis, between the passes
 //! of θ and of θ + π together, where the two sides meet. A path that ends at the axis has these

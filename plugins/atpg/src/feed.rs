@@ -47,6 +47,7 @@ const RESIDUAL: Param<Choice> = Param::choice(
              its own angle",
 )
 .default("held");
+
 impl Strategy for AtpgFeed {
     const NAME: &'static str = "atpg";
     const SUMMARY: &'static str = "at each radius the largest feed that holds the residual at \

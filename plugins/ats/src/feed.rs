@@ -13,6 +13,9 @@ const BEYOND: f64 = 2.5e-5;
 const SHORTEST: f64 = 1e-9;
 /// Number of turns in each answer.
 const BATCH: usize = 8;
+/// Most pieces of a law that is planned from its end: as many as the host takes, which looks at a law only where it
+/// grows from its beginning.
+const MOST_PIECES: usize = 8_000_000;
 
 /// At every cutting point the feed that keeps the residual there: ℓ(N + 1) = ℓ(N) ± f. X therefore
 /// moves back and forth within each turn.
@@ -92,9 +95,7 @@ impl FeedPlan for AtsPlan {
         match (setup.task.direction, self.inward) {
             (Direction::Inward, Inward::Backwards) => {
                 let goal = Goal::outward(setup.task, -1.0);
-                let mut law = Vec::new();
-                while self.plan_turns(setup, &goal, &mut law)? == Continuation::More {}
-                pieces.extend(backwards(&law));
+                pieces.extend(backwards(&self.plan_whole(setup, &goal)?));
                 Ok(Continuation::End)
             }
             (Direction::Inward, Inward::Recursion) => {
@@ -108,6 +109,23 @@ impl FeedPlan for AtsPlan {
 }
 
 impl AtsPlan {
+    /// Plans all turns up to the goal.
+    fn plan_whole(&mut self, setup: Setup<'_>, goal: &Goal) -> Result<Vec<FeedPiece>> {
+        let mut law = Vec::new();
+        loop {
+            let continuation = self.plan_turns(setup, goal, &mut law)?;
+            if continuation == Continuation::End {
+                return Ok(law);
+            }
+            if law.len() > MOST_PIECES {
+                return Err(StrategyError::failed(format!(
+                    "planned from its end, the law has more than {MOST_PIECES} pieces; give a larger \
+                     residual, or write inward = \"recursion\""
+                )));
+            }
+        }
+    }
+
     /// Plans the next turns.
     fn plan_turns(
         &mut self,

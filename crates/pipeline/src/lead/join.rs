@@ -108,11 +108,7 @@ impl Join {
 
 /// The largest played error of the cut's segment between two points, mm.
 fn error(plan: &Plan<'_>, pair: &[ControlPoint; 2]) -> Result<f64> {
-    let mut points = PathBlock {
-        shape: plan.chain.velocity.strategy.segments(),
-        ..PathBlock::default()
-    };
-    pair.iter().for_each(|point| points.push(*point));
+    let points = PathBlock::of(plan.segment_shape(), *pair);
     let errors = Meter::segment_errors(&plan.preparation.touch, &points);
     let errors = errors.map_err(PipelineError::Measure)?;
     Ok(errors.into_iter().fold(0.0, f64::max))

@@ -9,7 +9,7 @@ use super::clock::Clock;
 use super::course::Course;
 use super::join::{Join, LeadKind};
 use super::limits::{self, LeadMotion, LeadSettings, QUINTIC, SPEED_UP, Shares};
-use super::nodes;
+use super::nodes::{self, MOST_NODES};
 use super::phases::Phases;
 use super::spline::{self, FEWEST_NODES, Motion};
 use crate::plan::Plan;
@@ -272,6 +272,10 @@ impl Maker<'_> {
                 below.reverse();
             }
             layout.nodes = nodes::halve(&layout.nodes, &below, &self.clock);
+            if layout.nodes.len() > MOST_NODES {
+                let what = format!("it would take more than {MOST_NODES} points to clear the part");
+                return Err(self.failed(kind, what));
+            }
             halvings += 1;
         }
     }
@@ -420,15 +424,10 @@ impl Ends {
 /// The points of a lead without those of the transition.
 fn away_from_join(kind: LeadKind, points: &PathBlock) -> PathBlock {
     let skipped = TRANSITION.min(points.len());
-    let mut rest = PathBlock {
-        shape: points.shape,
-        ..PathBlock::default()
-    };
     let (from, to) = match kind {
         LeadKind::In => (0, points.len() - skipped),
         LeadKind::Out => (skipped, points.len()),
     };
     let kept = points.points().skip(from).take(to - from);
-    kept.for_each(|point| rest.push(point));
-    rest
+    PathBlock::of(points.shape, kept)
 }

@@ -119,7 +119,8 @@ impl LeadRun {
         let figures = maker.measure(&points)?;
         run.turns_in = layout.turns;
         run.meter.append(&figures);
-        run.meter.append_cut(&block_of(&cut));
+        run.meter
+            .append_cut(&PathBlock::of(plan.segment_shape(), cut));
         run.lead_in = Some(points);
         Ok(run)
     }
@@ -151,7 +152,7 @@ impl LeadRun {
         let points = maker.points(&layout, &join)?;
         let figures = maker.measure(&points)?;
         let mut meter = std::mem::take(&mut self.meter);
-        meter.append_cut(&block_of(pair));
+        meter.append_cut(&PathBlock::of(plan.segment_shape(), *pair));
         meter.append(&figures);
         let time = |points: &PathBlock| extent(&points.t);
         let lead_in = self.lead_in.take().unwrap_or_default();
@@ -207,17 +208,6 @@ fn extent(values: &[f64]) -> f64 {
     }
 }
 
-fn block_of(pair: &[ControlPoint; 2]) -> PathBlock {
-    let mut block = PathBlock::default();
-    pair.iter().for_each(|point| block.push(*point));
-    block
-}
-
 fn without_first(points: &PathBlock) -> PathBlock {
-    let mut rest = PathBlock {
-        shape: points.shape,
-        ..PathBlock::default()
-    };
-    points.points().skip(1).for_each(|point| rest.push(point));
-    rest
+    PathBlock::of(points.shape, points.points().skip(1))
 }

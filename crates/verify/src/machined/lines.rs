@@ -12,8 +12,9 @@ use crate::cusp::Point;
 
 /// Fewest sections that are kept. Half of them are lines through the axis.
 const FEWEST: i64 = 2 * 23;
-/// Largest number of passes that are kept, 16 bytes each. Beyond it, every other section is
-/// dropped.
+/// Number of passes that are kept, 16 bytes each, as long as there are more than the fewest sections. Beyond it, every
+/// other section is dropped. From 87,000 turns on the fewest sections have more passes: a path of ten million turns
+/// takes 7.4 GB.
 const MOST_PASSES: usize = 4_000_000;
 
 /// Passes along lines through the axis, each with a signed position: a pass of the section itself

@@ -8,6 +8,7 @@ pub(super) const LOWEST: usize = 3;
 pub(super) const HIGHEST: usize = 512;
 /// Turns of a window. Fewer would not show whether a pattern that turns slowly stays.
 pub(super) const WINDOW: usize = 64;
+
 /// The errors of one turn.
 #[derive(Debug, Clone)]
 pub(super) struct Turn {
