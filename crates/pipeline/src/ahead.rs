@@ -7,7 +7,7 @@ use crate::plan::Plan;
 /// Calls `pass`, which makes the blocks of a path. Where the plan holds nodes, the other threads place those of
 /// blocks to come meanwhile, the next ones first. What `pass` gives does not depend on how many they
 /// place.
-pub fn sampling_ahead<T: Send>(plan: &Plan<'_>, pass: impl FnOnce() -> T + Send) -> T {
+pub fn placing_ahead<T: Send>(plan: &Plan<'_>, pass: impl FnOnce() -> T + Send) -> T {
     if !plan.holds_nodes() || rayon::current_num_threads() == 1 {
         return pass();
     }
@@ -18,7 +18,7 @@ pub fn sampling_ahead<T: Send>(plan: &Plan<'_>, pass: impl FnOnce() -> T + Send)
         for index in 0..plan.blocks() {
             scope.spawn_fifo(move |_| {
                 if !has_ended.load(Ordering::Relaxed) {
-                    plan.sample_ahead(index);
+                    plan.place_ahead(index);
                 }
             });
         }

@@ -7,8 +7,8 @@ use crate::feed_cap::{FeedCap, feed_cap};
 use crate::order::one_at_a_time;
 use crate::plan::Plan;
 
-/// About how many blocks are sampled to estimate the count of control points.
-const SAMPLED_BLOCKS: usize = 8;
+/// About how many blocks are looked at to estimate the count of control points.
+const COUNTED_BLOCKS: usize = 8;
 
 /// What a run will give, without leads.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +39,7 @@ impl Estimate {
 
 /// Mean count of the sampler's nodes on a revolution, from a few blocks.
 pub fn nodes_per_revolution(plan: &Plan<'_>) -> Result<f64> {
-    let every = plan.blocks().div_ceil(SAMPLED_BLOCKS).max(1);
+    let every = plan.blocks().div_ceil(COUNTED_BLOCKS).max(1);
     let mut chosen: Vec<usize> = (0..plan.blocks()).step_by(every).collect();
     let turns = chosen.iter().map(|index| plan.revolutions(*index));
     let turns: f64 = turns.map(|block| block.end - block.start).sum();
@@ -47,7 +47,7 @@ pub fn nodes_per_revolution(plan: &Plan<'_>) -> Result<f64> {
     // keeps the other threads waiting.
     let radius = |index: &usize| plan.law.value(plan.revolutions(*index).start).abs();
     chosen.sort_by(|one, other| radius(other).total_cmp(&radius(one)));
-    let counts = chosen.par_iter().map(|index| plan.sample(*index));
+    let counts = chosen.par_iter().map(|index| plan.nodes(*index));
     let counts = one_at_a_time(counts.map(|nodes| nodes.map(|nodes| nodes.len() as f64)))?;
     Ok(counts.iter().sum::<f64>() / turns)
 }

@@ -30,7 +30,7 @@ pub struct BlockPoints {
     /// Which sampler segment each point's segment is a part of.
     pub owner: Vec<u32>,
     /// How many nodes the sampler placed, the path's last point included.
-    pub sampled: usize,
+    pub placed: usize,
     /// Whether the path ends with the block.
     pub ends_path: bool,
 }
@@ -150,9 +150,9 @@ fn locate_blocks(
     depths: &[Depths],
     part: Part,
 ) -> Result<Vec<NodeBlock>> {
-    let sampled_to = (range.end + 1).min(plan.blocks());
-    let sampled = (range.start..sampled_to).into_par_iter();
-    let raw = one_at_a_time(sampled.map(|index| plan.sample(index)))?;
+    let placed_to = (range.end + 1).min(plan.blocks());
+    let placed = (range.start..placed_to).into_par_iter();
+    let raw = one_at_a_time(placed.map(|index| plan.nodes(index)))?;
     let end_of = |index: usize| {
         let next = raw
             .get(index + 1 - range.start)
@@ -166,7 +166,7 @@ fn locate_blocks(
         Ok(NodeBlock {
             columns: locate(plan, &block.nodes)?,
             owner: block.owner,
-            sampled: block.sampled,
+            placed: block.placed,
         })
     }))
 }
@@ -177,14 +177,14 @@ struct Subdivision {
     /// Which sampler segment each node's segment is a part of.
     owner: Vec<u32>,
     /// How many nodes the sampler placed, the path's last point included.
-    sampled: usize,
+    placed: usize,
 }
 
 /// Halves the segments between the nodes that the sampler placed in a block, as often as `depths` says.
 fn subdivide(
     plan: &Plan<'_>,
     index: usize,
-    sampled: &NodeList,
+    placed: &NodeList,
     end: f64,
     depths: &[Depths],
 ) -> Subdivision {
@@ -192,7 +192,7 @@ fn subdivide(
     let depths = depths.get(source).map_or(&[][..], Vec::as_slice);
     // A block that repeats the halvings of another one may have a node more.
     let repeated = depths.last().filter(|_| source != index);
-    let revolutions = sampled.revolutions();
+    let revolutions = placed.revolutions();
     // A sampler need not know where the path ends, nor the controller's steps of time.
     let has_no_step =
         |node: f64| plan.is_last(index) && plan.on_time(node).1 >= plan.on_time(end).1;
@@ -210,7 +210,7 @@ fn subdivide(
         for part in 0..parts {
             let n = from + (to - from) * f64::from(part) / f64::from(parts);
             match part {
-                0 if sampled.has_offsets() => nodes.push_off(n, sampled.offset(i)),
+                0 if placed.has_offsets() => nodes.push_off(n, placed.offset(i)),
                 _ => nodes.push(n),
             }
             owner.push(i as u32);
@@ -225,7 +225,7 @@ fn subdivide(
     Subdivision {
         nodes,
         owner,
-        sampled: count,
+        placed: count,
     }
 }
 
@@ -315,7 +315,7 @@ fn solve(plan: &Plan<'_>, window: Window, state: Option<&mut Vec<f64>>) -> Resul
     let Window {
         index,
         owner,
-        sampled,
+        placed,
         columns,
         own,
         at_start,
@@ -363,7 +363,7 @@ fn solve(plan: &Plan<'_>, window: Window, state: Option<&mut Vec<f64>>) -> Resul
         points,
         offsets: part(columns.dz),
         owner,
-        sampled,
+        placed,
         ends_path: plan.is_last(index),
     })
 }

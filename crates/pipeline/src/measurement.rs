@@ -52,7 +52,7 @@ pub struct Measurement {
     meter: Meter,
     servo: Option<ServoMeter>,
     points: u64,
-    sampled: u64,
+    placed: u64,
     own_axes: AxesMotion,
     sketch: bool,
 }
@@ -64,7 +64,7 @@ pub struct BlockMeasurement {
     servo: Option<ServoBlockFigures>,
     own_axes: AxesMotion,
     points: usize,
-    sampled: usize,
+    placed: usize,
 }
 
 impl Measurement {
@@ -77,7 +77,7 @@ impl Measurement {
                 .with_form(options.form),
             servo: options.servo.as_ref().map(ServoMeter::new),
             points: 0,
-            sampled: 0,
+            placed: 0,
             own_axes: AxesMotion::default(),
             sketch: options.sketch,
         }
@@ -96,7 +96,7 @@ impl Measurement {
             meter.append(block);
         }
         self.points += block.points as u64;
-        self.sampled += block.sampled as u64;
+        self.placed += block.placed as u64;
         self.own_axes.append(&block.own_axes);
         Ok(())
     }
@@ -112,7 +112,7 @@ impl Measurement {
         let sketch = self.sketch.then(|| self.meter.sketch());
         Ok(Outcome {
             control_points: self.points,
-            added_by_refine: self.points - self.sampled,
+            added_by_refine: self.points - self.placed,
             revolutions,
             cutting_time: plan.spindle.time_at(revolutions),
             own_axes: plan.own_angles().map(|_| self.own_axes),
@@ -152,7 +152,7 @@ impl BlockMeasurement {
             servo: servo.transpose().map_err(PipelineError::Measure)?,
             own_axes: own_axes.unwrap_or_default(),
             points: block.owner.len(),
-            sampled: block.sampled,
+            placed: block.placed,
         })
     }
 }

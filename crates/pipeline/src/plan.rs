@@ -28,7 +28,7 @@ const COMFORTABLE_BLOCK: f64 = 50_000.0;
 /// Nodes that a block of a sample has where they are densest, at least; it has whole revolutions. With 30 of
 /// them the sizes that `check` says of the table of points err by up to 2.3 % for the recipes of the
 /// documentation, and nine other lens arrays by 4.7 % in the mean square. With 8 it was 6.5 % for these.
-const SAMPLED_BLOCK: f64 = 30.0;
+const NODES_OF_SAMPLED_BLOCK: f64 = 30.0;
 /// Most numbers for nodes that are held in memory while a path is planned, refined and written: 160
 /// MB. A node on the path takes one, and a node beside it three. The sampler of a longer path is asked
 /// again in every pass.
@@ -66,7 +66,7 @@ pub struct Plan<'a> {
     /// t(N).
     pub spindle: SpindleLaw,
     /// The spindle law that the sampler sees: the one at which its nodes were placed.
-    sampled: SpindleLaw,
+    placed_for: SpindleLaw,
     /// Between which revolutions the law is the feed strategy's own; `None` if no part is.
     pub own: Option<[f64; 2]>,
     /// Steps of time a second on which control points must lie, if the controller has such steps.
@@ -115,7 +115,7 @@ impl<'a> Plan<'a> {
             chain,
             preparation,
             law,
-            sampled: spindle.clone(),
+            placed_for: spindle.clone(),
             spindle,
             own,
             time_steps: None,
@@ -148,8 +148,8 @@ impl<'a> Plan<'a> {
             block,
             ..
         } = *self;
-        let before = std::mem::replace(&mut self.sampled, self.spindle.clone());
-        self.sampler = plan_nodes(chain, preparation, &self.law, &self.sampled)?;
+        let before = std::mem::replace(&mut self.placed_for, self.spindle.clone());
+        self.sampler = plan_nodes(chain, preparation, &self.law, &self.placed_for)?;
         let held = std::mem::take(&mut self.held);
         self.divide(observer)?;
         if held.is_empty() {
@@ -160,7 +160,7 @@ impl<'a> Plan<'a> {
             return Ok(());
         }
         for (index, nodes) in held.into_iter().enumerate() {
-            let stays = changes_by_a_factor(&before, &self.sampled, self.revolutions(index));
+            let stays = changes_by_a_factor(&before, &self.placed_for, self.revolutions(index));
             if let (true, Some(held)) = (stays, self.held.get_mut(index)) {
                 *held = nodes;
             }
@@ -186,7 +186,7 @@ impl<'a> Plan<'a> {
         if self.keeps_its_blocks() {
             return;
         }
-        while self.block > 1.0 && 0.5 * self.block * self.density >= SAMPLED_BLOCK {
+        while self.block > 1.0 && 0.5 * self.block * self.density >= NODES_OF_SAMPLED_BLOCK {
             self.block *= 0.5;
         }
     }
@@ -245,7 +245,7 @@ impl<'a> Plan<'a> {
             stop_if_cancelled(observer)?;
             states.push(state.clone());
             let Revolutions { start, end } = self.revolutions(index);
-            let own = self.sample_from(index, &mut state)?.len();
+            let own = self.place_from(index, &mut state)?.len();
             self.density = self.density.max(own as f64 / (end - start));
             nodes += own;
             check_points(self.distance(), end, nodes as f64 / end)?;
@@ -348,14 +348,14 @@ impl<'a> Plan<'a> {
     }
 
     /// Places the nodes of a block that will be wanted, where nodes are held and no thread has begun to.
-    pub fn sample_ahead(&self, index: usize) {
+    pub fn place_ahead(&self, index: usize) {
         if let Some(held) = self.held.get(index) {
             held.place_ahead(|| self.place(index));
         }
     }
 
     /// The sampler's nodes of a block, checked. The first block includes the path's first point.
-    pub fn sample(&self, index: usize) -> Result<NodeList> {
+    pub fn nodes(&self, index: usize) -> Result<NodeList> {
         let repeated = self.repeated.as_ref().filter(|_| self.repeats_nodes);
         let source = repeated.map_or(index, |blocks| blocks.source(index));
         if source == index {
@@ -386,10 +386,10 @@ impl<'a> Plan<'a> {
 
     fn place(&self, index: usize) -> Result<NodeList> {
         let mut state = self.sampler_states.get(index).cloned().unwrap_or_default();
-        self.sample_from(index, &mut state)
+        self.place_from(index, &mut state)
     }
 
-    fn sample_from(&self, index: usize, state: &mut Vec<f64>) -> Result<NodeList> {
+    fn place_from(&self, index: usize, state: &mut Vec<f64>) -> Result<NodeList> {
         let mut nodes = self.ask_sampler(self.revolutions(index), state)?;
         let check = NodeCheck {
             block: self.revolutions(index),
@@ -416,7 +416,7 @@ impl<'a> Plan<'a> {
             task,
             locus,
             law: &self.law.window(from, to),
-            spindle: &self.sampled.window(from, to),
+            spindle: &self.placed_for.window(from, to),
         };
         let mut nodes = NodeList::default();
         let answer = match self.sampler.dependence() {

@@ -5,7 +5,7 @@
 
 use turnpath_core::toolpath::Section;
 
-use crate::ahead::sampling_ahead;
+use crate::ahead::placing_ahead;
 use crate::blocks::Blocks;
 use crate::error::RunResult;
 use crate::estimate::{Estimate, nodes_per_revolution};
@@ -144,7 +144,7 @@ impl<'a> PathRun<'a> {
         plan.time_steps = options.time_steps;
         plan.hold_nodes();
         // The leads and the first block wait for the second one.
-        let (nodes, ()) = rayon::join(|| nodes_per_revolution(&plan), || plan.sample_ahead(1));
+        let (nodes, ()) = rayon::join(|| nodes_per_revolution(&plan), || plan.place_ahead(1));
         let nodes = nodes?;
         Ok(Self {
             estimate: Estimate::of(&plan, nodes)?,
@@ -181,7 +181,7 @@ impl<'a> PathRun<'a> {
         }
         self.begin_cut();
         let record = || self.record_unrefined(&mut recorder, &mut round);
-        if !sampling_ahead(&self.plan, record)? {
+        if !placing_ahead(&self.plan, record)? {
             return Ok(FirstPass::Refines(Box::new(round)));
         }
         let leads = self.end_path(recorder)?;
@@ -259,7 +259,7 @@ impl<'a> PathRun<'a> {
         let ahead = round.ahead.as_ref().map_or(0, Vec::len);
         let left = ahead + round.rest.left(&self.plan);
         observer.begin(Stage::Refine(1), left as u64);
-        sampling_ahead(&self.plan, || self.play_rest(&mut round))?;
+        placing_ahead(&self.plan, || self.play_rest(&mut round))?;
         self.leads = None;
         self.plan.start = Start::default();
         let all: Vec<usize> = (0..self.plan.blocks()).collect();

@@ -14,7 +14,7 @@ pub const SMALLEST_SEGMENT: f64 = 1e-4;
 /// Control points of a block above which none of its segments is halved any more. A tolerance that
 /// needs so many (tens of thousands a revolution) is missed and reported as missed, before memory
 /// runs out.
-const MOST_POINTS: usize = 1_000_000;
+const MOST_POINTS_OF_BLOCK: usize = 1_000_000;
 
 /// The state of a sampler segment after its last playback.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub enum SegmentState {
 
 /// Plays a block back and gives the state of each of its sampler segments.
 pub fn play(plan: &Plan<'_>, block: &BlockPoints) -> Result<Vec<SegmentState>> {
-    if block.points.len() > MOST_POINTS {
+    if block.points.len() > MOST_POINTS_OF_BLOCK {
         return Ok(all_calm(block));
     }
     let touch = &plan.preparation.touch;
@@ -42,7 +42,7 @@ pub fn play(plan: &Plan<'_>, block: &BlockPoints) -> Result<Vec<SegmentState>> {
 /// The state of each sampler segment of a block whose segments err by so much as they are played, mm.
 pub fn states(plan: &Plan<'_>, block: &BlockPoints, errors: &[f64]) -> Result<Vec<SegmentState>> {
     let mut states = all_calm(block);
-    if block.points.len() > MOST_POINTS {
+    if block.points.len() > MOST_POINTS_OF_BLOCK {
         return Ok(states);
     }
     let aim = AIM * plan.preparation.task.tolerance.interpolation;

@@ -11,7 +11,7 @@ pub struct NodeBlock {
     /// Which sampler segment each segment of the block is a part of.
     pub owner: Vec<u32>,
     /// How many nodes the sampler placed, the path's last point included.
-    pub sampled: usize,
+    pub placed: usize,
     /// The nodes. A neighbour of the blocks that are made has only the nodes next to them here; its other fields
     /// are those of the whole block.
     pub columns: Columns,
@@ -32,7 +32,7 @@ pub struct Window {
     /// As [`NodeBlock`] has them.
     pub owner: Vec<u32>,
     /// As [`NodeBlock`] has it.
-    pub sampled: usize,
+    pub placed: usize,
     /// All nodes.
     pub columns: Columns,
     /// Which of them are the block's own.
@@ -56,7 +56,7 @@ impl NodeRow {
         let window = |(at, block): (usize, NodeBlock)| {
             let NodeBlock {
                 owner,
-                sampled,
+                placed,
                 mut columns,
             } = block;
             let own = 0..columns.len();
@@ -68,7 +68,7 @@ impl NodeRow {
             Window {
                 index: self.first + at,
                 owner,
-                sampled,
+                placed,
                 columns,
                 own,
                 at_start,
@@ -97,13 +97,13 @@ impl NodeRow {
             }
             start = end;
         }
-        let (owner, sampled) = rest.first().map_or((Vec::new(), 0), |block| {
-            (block.owner.clone(), block.sampled)
-        });
+        let (owner, placed) = rest
+            .first()
+            .map_or((Vec::new(), 0), |block| (block.owner.clone(), block.placed));
         Window {
             index,
             owner,
-            sampled,
+            placed,
             columns,
             own: own.start - window.start..own.end - window.start,
             at_start: self.first == 0 && window.start == 0,

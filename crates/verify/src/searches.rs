@@ -12,7 +12,7 @@ use turnpath_core::{Gradients, Result, SurfaceModel, sines_and_cosines};
 
 use crate::bracket::Bracket;
 use crate::profiles::Profiles;
-use crate::search_limits::{LARGEST_FIT, WIDTH};
+use crate::search_limits::{SURE_FIT, WIDTH};
 use crate::small_turns::TurnStarts;
 use crate::touches::{Touch, Touches};
 
@@ -21,7 +21,7 @@ use crate::touches::{Touch, Touches};
 const FOOT_TOLERANCE: f64 = 1e-8;
 /// A search ends with its first step only if that step is shorter than this part of the tolerance. In a hollow
 /// nearly as tight as the nose, a step along the normal is this part of the way to the contact.
-const FIRST_STEP: f64 = 1.0 - LARGEST_FIT;
+const FIRST_STEP: f64 = 1.0 - SURE_FIT;
 /// Largest number of steps of a search.
 const MOST_STEPS: usize = 80;
 /// After this many steps every second one halves the bracket. Halving alone reaches

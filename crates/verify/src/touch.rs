@@ -13,7 +13,7 @@ use crate::contact_bounds;
 use crate::next_contacts::NextContacts;
 use crate::profiles::Profiles;
 use crate::scan;
-use crate::search_limits::{LARGEST_FIT, WIDTH};
+use crate::search_limits::{SURE_FIT, WIDTH};
 use crate::searches::Searches;
 use crate::small_turns::TurnStarts;
 use crate::subject::Subject;
@@ -57,7 +57,7 @@ impl FirstTouch {
         let (radius, rim) = (subject.tool.nose_radius, subject.part.aperture_radius);
         let fits = || -> Result<bool> {
             let found = largest_curvature(subject.surface.as_ref(), rim + 2.0 * radius)?;
-            Ok(found.is_some_and(|curvature| radius * curvature < LARGEST_FIT))
+            Ok(found.is_some_and(|curvature| radius * curvature < SURE_FIT))
         };
         let single = match (subject.compensates_nose, subject.tool.misfit) {
             (false, _) => true,
