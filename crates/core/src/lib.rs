@@ -19,6 +19,7 @@ pub mod hermite;
 pub mod interference;
 mod lanes;
 pub mod largest_nose;
+pub mod law_limits;
 mod laws;
 pub mod locus;
 mod machine;

@@ -6,6 +6,7 @@
 
 use std::mem;
 
+use turnpath_core::law_limits::room_beyond;
 use turnpath_core::{
     Continuation, Direction, FeedPiece, Locus, RadialRange, Setup, SpiralLaw, Task,
 };
@@ -132,7 +133,7 @@ struct SpiralCheck {
 impl SpiralCheck {
     fn new(task: &Task) -> Self {
         let RadialRange { inner, outer } = task.range;
-        let beyond = outer - inner + 2.0 * task.tool.nose_radius;
+        let beyond = room_beyond(task);
         Self {
             outward: match task.direction {
                 Direction::Outward => 1.0,

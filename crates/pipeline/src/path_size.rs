@@ -1,12 +1,9 @@
 //! How long a path is, and how long one may be.
 
-/// Most revolutions: two weeks at 500 rpm.
-pub const MOST_REVOLUTIONS: f64 = 1e7;
+pub use turnpath_core::law_limits::{MOST_PIECES, MOST_REVOLUTIONS};
+
 /// Most control points: 250 GB of `toolpath.csv`, and more than a day of work.
 pub const MOST_POINTS: f64 = 2e9;
-/// Most pieces of a law, which take half a gigabyte. They suffice for some pieces in each of
-/// 100,000 revolutions.
-pub(crate) const MOST_PIECES: usize = 8_000_000;
 
 /// A path that is too long.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
+use turnpath_core::law_limits::STEADY_REVOLUTIONS;
 use turnpath_core::{Path, Piece, PiecewisePolynomial, SpindleAsk, SpindleLaw, SpiralLaw};
 
 use crate::{Chain, Preparation, Result};
@@ -18,8 +19,6 @@ const TIME_ROUNDING: f64 = 16.0 * f64::EPSILON;
 const SPEED_JUMP: f64 = 1e-9;
 /// By how much the change of the speed over a revolution may jump at a knot, as a part of the speed.
 const CHANGE_JUMP: f64 = 1e-6;
-/// The spindle is steady over so many revolutions at either end of the path, where leads join it.
-const STEADY: f64 = 0.5;
 /// How often a piece is divided in the search for its highest speed: down to a millionth of it.
 const MOST_DIVISIONS: usize = 20;
 
@@ -69,8 +68,8 @@ impl SpindleCheck<'_> {
             self.check_speed(piece)?;
             self.check_knot(piece.start)?;
         }
-        self.check_steady(0.0..=STEADY.min(self.end))?;
-        self.check_steady((self.end - STEADY).max(0.0)..=self.end)
+        self.check_steady(0.0..=STEADY_REVOLUTIONS.min(self.end))?;
+        self.check_steady((self.end - STEADY_REVOLUTIONS).max(0.0)..=self.end)
     }
 
     /// The pieces that the path uses.

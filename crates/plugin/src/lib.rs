@@ -56,7 +56,7 @@ pub use registration::{Build, Registration};
 
 // For samplers and feeds that a lab writes, and for loops over many points or curves. The
 // documentation has a sentence on each.
-pub use turnpath_core::{hermite, locus, registers, ring, strip};
+pub use turnpath_core::{hermite, law_limits, locus, registers, ring, strip};
 
 /// Everything that a strategy's author needs.
 pub mod prelude {

@@ -1,5 +1,6 @@
 //! The feed strategy `ats`.
 
+use turnpath_plugin::law_limits::{MOST_PIECES, room_beyond};
 use turnpath_plugin::prelude::*;
 
 use crate::turn::{Findings, Orientation, Turn, Turns, backwards};
@@ -13,9 +14,6 @@ const BEYOND: f64 = 2.5e-5;
 const SHORTEST: f64 = 1e-9;
 /// Number of turns in each answer.
 const BATCH: usize = 8;
-/// Most pieces of a law that is planned from its end: as many as the host takes, which looks at a law only where it
-/// grows from its beginning.
-const MOST_PIECES: usize = 8_000_000;
 
 /// At every cutting point the feed that keeps the residual there: ℓ(N + 1) = ℓ(N) ± f. X therefore
 /// moves back and forth within each turn.
@@ -117,6 +115,7 @@ impl AtsPlan {
             if continuation == Continuation::End {
                 return Ok(law);
             }
+            // The host looks at a law only where it grows from its beginning.
             if law.len() > MOST_PIECES {
                 return Err(StrategyError::failed(format!(
                     "planned from its end, the law has more than {MOST_PIECES} pieces; give a larger \
@@ -170,7 +169,7 @@ impl Goal {
         Self {
             start: task.range.inner,
             end: task.range.outer + beyond(task),
-            room: room(task),
+            room: room_beyond(task),
             orientation: Orientation {
                 outward: 1.0,
                 sense,
@@ -182,7 +181,7 @@ impl Goal {
         Self {
             start: task.range.outer,
             end: task.range.inner - beyond(task),
-            room: room(task),
+            room: room_beyond(task),
             orientation: Orientation {
                 outward: -1.0,
                 sense: 1.0,
@@ -234,12 +233,6 @@ impl Goal {
         }
         None
     }
-}
-
-/// How far the host lets a law go beyond its range, mm: so far that no surface is to be expected there.
-fn room(task: &Task) -> f64 {
-    let RadialRange { inner, outer } = task.range;
-    outer - inner + 2.0 * task.tool.nose_radius
 }
 
 /// How far every angle must pass the range's end, mm.

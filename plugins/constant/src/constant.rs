@@ -1,5 +1,6 @@
 //! The feed strategy `constant`.
 
+use turnpath_plugin::law_limits::MOST_REVOLUTIONS;
 use turnpath_plugin::prelude::*;
 
 use crate::smallest::smallest_residual_feed;
@@ -7,8 +8,6 @@ use crate::smallest::smallest_residual_feed;
 /// The part by which a derived feed stays below the smallest feed that the search finds on the
 /// part. It is more than the search misses, and costs a ten-thousandth more revolutions.
 const MARGIN: f64 = 1e-4;
-/// Most revolutions of a path: two weeks at 500 rpm. A feed that takes more has a wrong unit.
-const MOST_REVOLUTIONS: f64 = 1e7;
 
 /// The law ρ = start ± f·N over the whole range.
 #[derive(Debug, Clone, PartialEq)]

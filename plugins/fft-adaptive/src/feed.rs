@@ -1,5 +1,6 @@
 //! The feed strategy `fft-adaptive`: eq. 1 to 3 and 5, with one feed for each revolution.
 
+use turnpath_plugin::law_limits::MOST_REVOLUTIONS;
 use turnpath_plugin::locus::{Profile, profile_at};
 use turnpath_plugin::prelude::*;
 use turnpath_plugin::ring::FeedTable;
@@ -24,8 +25,6 @@ const LEAST_SAGITTA: f64 = 1e-9;
 const LEAST_REST: f64 = 1e-9;
 /// Number of revolutions in each answer.
 const BATCH: usize = 64;
-/// Most revolutions: two weeks at 500 rpm.
-const MOST_REVOLUTIONS: usize = 10_000_000;
 
 /// The largest feed whose chord stays within a tolerance on every radial profile of the revolution.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,7 +146,7 @@ impl FeedPlan for FftAdaptivePlan {
                 return Ok(Continuation::End);
             }
         }
-        if self.revolutions > MOST_REVOLUTIONS {
+        if self.revolutions as f64 > MOST_REVOLUTIONS {
             return Err(too_many(self.rho));
         }
         Ok(Continuation::More)

@@ -1,11 +1,11 @@
 //! The cells into which a path is divided.
 
+use turnpath_plugin::law_limits::STEADY_REVOLUTIONS;
+
 /// Cells of a piece of t(N).
 pub const CELLS_OF_PIECE: usize = 4;
 /// Pieces of t(N) on a turn, at the least.
 const PIECES_OF_TURN: f64 = 2.0;
-/// The spindle is steady over so many revolutions at either end, where leads join it.
-const STEADY: f64 = 0.5;
 
 /// A path in cells of equal length, an eighth of a turn or a little less.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +39,7 @@ impl Grid {
     /// How many cells at either end must have one speed, so that a mean over `reach` cells on either
     /// side is constant where leads join.
     pub fn steady(&self, reach: usize) -> usize {
-        let pieces = (STEADY / (CELLS_OF_PIECE as f64 * self.step())).ceil() as usize;
+        let pieces = (STEADY_REVOLUTIONS / (CELLS_OF_PIECE as f64 * self.step())).ceil() as usize;
         (CELLS_OF_PIECE * pieces + reach).min(self.cells)
     }
 
