@@ -217,6 +217,10 @@ fn wrong_passes_are_underlined() {
             "`X` and `x` differ only in small and capital letters",
         ),
         (
+            "[passes.a]\nallowance = \"10 um\"\n[passes.b]\nallowance = \"50 um\"\n",
+            "`b` would cut nothing: it leaves 50 um, and `a` before it only 10 um",
+        ),
+        (
             "[passes.rough]\nallowance = \"1 um\"\ntolerance.residual = \"1 deg\"\n",
             "is an angle",
         ),

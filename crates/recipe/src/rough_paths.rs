@@ -10,6 +10,8 @@
 //! The key has the word of the shop. In the workspace a pass is one turn of the spiral, so what the
 //! table lists is called a rough path.
 
+use turnpath_core::UM;
+
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::document::{Entry, Table, Value};
 use crate::read::Sections;
@@ -61,6 +63,7 @@ impl Recipe {
                 None => paths.extend(self.rough_path((&base, entry), number, &mut diagnostics)),
             }
         }
+        diagnostics.extend(idle_path(&paths, entries));
         Diagnostics::unless_any(Some(paths), diagnostics)
     }
 
@@ -113,6 +116,24 @@ impl Recipe {
             recipe,
         })
     }
+}
+
+/// What is wrong with the first path that leaves more than the one before it, which would cut nothing.
+fn idle_path(paths: &[RoughPath], entries: &[Entry]) -> Option<Diagnostic> {
+    let mut pairs = paths.windows(2);
+    let (before, idle) = pairs.find_map(|pair| match pair {
+        [before, next] if next.allowance > before.allowance => Some((before, next)),
+        _ => None,
+    })?;
+    let entry = entries.iter().find(|entry| entry.key == idle.name)?;
+    let [leaves, left] = [idle, before].map(|path| path.allowance / UM);
+    let title = format!(
+        "{} would cut nothing: it leaves {leaves} um, and {} before it only {left} um",
+        quoted(&idle.name),
+        quoted(&before.name)
+    );
+    let help = "the paths are cut in their order, so the allowances must fall";
+    Some(Diagnostic::new(entry.span.clone(), title).with_help(help))
 }
 
 /// The allowance of a rough path, and the values that it has instead of the recipe's.
