@@ -89,7 +89,11 @@ fn what_cannot_be_drawn_is_refused_before_the_work() {
         ),
         (
             "--plot map.svg --plot-size 2x60",
-            "each side has 30 mm to 1200 mm",
+            "each side has 40 mm to 1200 mm",
+        ),
+        (
+            "--plot axes.svg --plot-size 50x50",
+            "the figure `axes` at 50 mm x 50 mm: it needs 60 mm x 45 mm at the least",
         ),
         ("--plot map.png --plot-dpi 9", "a PNG has 50 to 2400"),
         (

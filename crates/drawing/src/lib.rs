@@ -15,6 +15,8 @@ mod request;
 mod series;
 mod shape;
 mod sheet;
+mod square;
+mod stack;
 mod svg_file;
 
 pub use drawing::Drawing;

@@ -12,6 +12,8 @@ const STEPS: [f64; 3] = [1.0, 2.0, 5.0];
 const ENOUGH: usize = 5;
 /// How far beyond its end a tick may lie by rounding, in steps.
 const ROUNDING: f64 = 1e-9;
+/// The narrowest axis, as a share of its values: numbers that told more apart would be too long.
+const NARROWEST: f64 = 1e-6;
 
 /// What an axis shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,9 +41,11 @@ pub struct Tick {
 impl Range {
     /// An even axis that has some room: never empty.
     pub fn even(from: f64, to: f64) -> Self {
-        let (from, to) = match from.is_finite() && to.is_finite() && from < to {
+        let narrowest = NARROWEST * from.abs().max(to.abs());
+        let room = narrowest.max(0.5);
+        let (from, to) = match from.is_finite() && to.is_finite() && to - from > narrowest {
             true => (from, to),
-            false if from.is_finite() => (from - 0.5, from + 0.5),
+            false if from.is_finite() => (from - room, from + room),
             false => (0.0, 1.0),
         };
         Self {
@@ -51,14 +55,19 @@ impl Range {
         }
     }
 
-    /// From 0 to a little above the largest value.
-    pub fn from_zero(most: f64) -> Self {
-        /// The room above.
+    /// From 0 to a little above the largest value, and from a little below the smallest one where it is
+    /// negative. What is no number does not count.
+    pub fn with_zero(values: impl IntoIterator<Item = f64>) -> Self {
+        /// The room beyond the values.
         const ROOM: f64 = 1.08;
         /// Below a millionth of any unit there is rounding alone.
         const LEAST: f64 = 1e-6;
-        match most > LEAST {
-            true => Self::even(0.0, ROOM * most),
+        let known = values.into_iter().filter(|value| value.is_finite());
+        let (least, most) = known.fold((0.0, 0.0), |(least, most): (f64, f64), value| {
+            (least.min(value), most.max(value))
+        });
+        match most.max(-least) > LEAST {
+            true => Self::even(ROOM * least, ROOM * most),
             false => Self::even(0.0, 1.0),
         }
     }
@@ -234,15 +243,15 @@ mod tests {
 
     #[test]
     fn long_numbers_leave_their_power_of_ten_to_the_title() {
-        let range = Range::from_zero(250_000.0);
+        let range = Range::with_zero([250_000.0]);
         assert_eq!(range.power(), 5);
         assert_eq!(texts(range, 3), ["0", "1", "2"]);
         assert_eq!(title("jerk", "mm/s³", 5), "jerk / 10⁵ mm/s³");
-        let small = Range::from_zero(4e-6);
+        let small = Range::with_zero([4e-6]);
         assert_eq!(title("points", "", small.power()), "points / 10⁻⁶");
         assert_eq!(texts(small, 3), ["0", "2", "4"]);
         // What is rounding alone is drawn as nothing.
-        assert_eq!(Range::from_zero(3e-8), Range::even(0.0, 1.0));
+        assert_eq!(Range::with_zero([3e-8]), Range::even(0.0, 1.0));
     }
 
     #[test]
@@ -266,11 +275,29 @@ mod tests {
     }
 
     #[test]
+    fn an_axis_from_zero_covers_negative_values_too() {
+        let range = Range::with_zero([3.0, f64::NAN, -1.0, f64::INFINITY]);
+        assert_eq!((range.from, range.to), (-1.08, 3.24));
+        let range = Range::with_zero([-1.0, -2.0]);
+        assert_eq!((range.from, range.to), (-2.16, 0.0));
+    }
+
+    #[test]
+    fn a_range_is_no_narrower_than_its_numbers_can_tell() {
+        for (from, to) in [(2e16, 2e16), (7.0, 7.0 + 1e-12), (-3e9, -3e9 + 1.0)] {
+            let range = Range::even(from, to);
+            assert!(range.from <= from && range.to >= to, "{range:?}");
+            let numbers = texts(range, 3);
+            assert!(numbers.len() > 1 && numbers.iter().all(|text| text.chars().count() < 10));
+        }
+    }
+
+    #[test]
     fn no_data_make_no_empty_range() {
         for range in [
             Range::even(f64::NAN, f64::NAN),
             Range::even(2.0, 2.0),
-            Range::from_zero(0.0),
+            Range::with_zero([0.0]),
             Range::even(f64::INFINITY, f64::NEG_INFINITY),
         ] {
             assert!(range.from < range.to, "{range:?}");

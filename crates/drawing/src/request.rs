@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-/// Sides of a drawing, mm: from a thumbnail to a poster.
-const SIDES: RangeInclusive<f64> = 30.0..=1200.0;
+/// Sides of a drawing, mm: from the least side of any figure to a poster.
+const SIDES: RangeInclusive<f64> = 40.0..=1200.0;
 /// Dots an inch: from a screen to a film.
 const DOTS: RangeInclusive<u32> = 50..=2400;
 /// Pixels of a PNG at the most: 400 MB of memory.
@@ -63,6 +63,29 @@ impl Figure {
         };
         Size { width, height }
     }
+
+    /// The least size at which its titles and numbers stand beside each other, and its frames are high
+    /// and wide enough to read.
+    pub fn least(self) -> Size {
+        let (width, height) = match self {
+            Self::Map | Self::Spiral | Self::Spectrum => (45.0, 40.0),
+            Self::Feed => (45.0, 45.0),
+            Self::Axes => (60.0, 45.0),
+        };
+        Size { width, height }
+    }
+
+    /// Whether it can be drawn at this size.
+    ///
+    /// # Errors
+    /// When a side is below that of its least size.
+    pub fn allows(self, size: Size) -> Result<(), DrawingError> {
+        let least = self.least();
+        match size.width >= least.width && size.height >= least.height {
+            true => Ok(()),
+            false => Err(DrawingError::Small { figure: self, size }),
+        }
+    }
 }
 
 /// The sides of a drawing, mm.
@@ -76,7 +99,7 @@ impl Size {
     /// A drawing of this width and height, mm.
     ///
     /// # Errors
-    /// When a side is too short for axes with titles, or longer than any paper.
+    /// When a side is too short for any figure, or longer than any paper.
     pub fn new(width: f64, height: f64) -> Result<Self, DrawingError> {
         match SIDES.contains(&width) && SIDES.contains(&height) {
             true => Ok(Self { width, height }),
@@ -135,6 +158,17 @@ pub enum DrawingError {
         /// mm.
         height: f64,
     },
+    /// A figure has no room for its titles and numbers.
+    #[error(
+        "the figure `{}` at {} mm x {} mm: it needs {} mm x {} mm at the least",
+        figure.name(), size.width, size.height, figure.least().width, figure.least().height
+    )]
+    Small {
+        /// What is to be drawn.
+        figure: Figure,
+        /// Its size.
+        size: Size,
+    },
     /// A PNG has too few or too many dots.
     #[error("{dots} dots an inch: a PNG has {} to {}", DOTS.start(), DOTS.end())]
     Dots {
@@ -163,6 +197,26 @@ mod tests {
             assert_eq!(Size::new(width, height), Ok(figure.size()));
         }
         assert_eq!(Figure::named("Map"), None);
+    }
+
+    #[test]
+    fn a_figure_is_refused_below_its_least_size_with_that_size() {
+        for figure in Figure::ALL {
+            let Size { width, height } = figure.least();
+            assert_eq!(Size::new(width, height), Ok(figure.least()));
+            assert_eq!(figure.allows(figure.least()), Ok(()));
+            assert_eq!(figure.allows(figure.size()), Ok(()));
+            for (width, height) in [(width - 1.0, height), (width, height - 1.0)] {
+                assert!(
+                    figure.allows(Size { width, height }).is_err(),
+                    "{}",
+                    figure.name()
+                );
+            }
+        }
+        let refused = Figure::Axes.allows(Size::new(40.0, 50.0).unwrap());
+        let message = "the figure `axes` at 40 mm x 50 mm: it needs 60 mm x 45 mm at the least";
+        assert_eq!(refused.unwrap_err().to_string(), message);
     }
 
     #[test]

@@ -4,10 +4,11 @@ use turnpath_core::{Axis as MachineAxis, Derivative};
 use turnpath_report::{AxisSketch, PathSketch, RunReport, Samples, unit};
 
 use super::along_radius::{radii, radius_axis, values};
-use crate::frame::{Axis, stack};
+use crate::frame::Axis;
 use crate::range::Range;
 use crate::series::{curve, limit};
 use crate::shape::{Area, Shape};
+use crate::stack::{Titles, stack};
 
 /// A panel: what it shows, and the limit of it.
 struct Motion {
@@ -21,22 +22,27 @@ pub fn axes(report: &RunReport, sketch: &PathSketch, sheet: Area) -> Vec<Shape> 
     let radii = radii(turns);
     let columns = [(MachineAxis::X, &turns.x), (MachineAxis::Z, &turns.z)];
     let width = sheet.width / 2.0;
+    let columns = columns.map(|(which, sketch)| motions(report, which, sketch));
+    let titles = Titles::of_stacks(sheet.height, columns.iter().map(|motions| axes_of(motions)));
     let mut shapes = Vec::new();
-    for (at, (which, sketch)) in columns.into_iter().enumerate() {
+    for (at, motions) in columns.iter().enumerate() {
         let area = Area {
             left: sheet.left + at as f64 * width,
             width,
             ..sheet
         };
-        shapes.extend(column(area, &radii, &motions(report, which, sketch)));
+        shapes.extend(column(area, &radii, motions, titles));
     }
     shapes
 }
 
+fn axes_of(motions: &[Motion]) -> Vec<Axis> {
+    motions.iter().map(|motion| motion.axis).collect()
+}
+
 /// Velocity, acceleration and jerk of an axis above each other.
-fn column(area: Area, radii: &[f64], motions: &[Motion]) -> Vec<Shape> {
-    let axes: Vec<Axis> = motions.iter().map(|motion| motion.axis).collect();
-    let (frames, mut shapes) = stack(area, &radius_axis(radii), &axes);
+fn column(area: Area, radii: &[f64], motions: &[Motion], titles: Titles) -> Vec<Shape> {
+    let (frames, mut shapes) = stack(area, &radius_axis(radii), &axes_of(motions), titles);
     for (frame, motion) in frames.iter().zip(motions) {
         shapes.push(curve(frame, radii, &motion.values));
         shapes.extend(motion.limit.map(|value| limit(frame, value)));
@@ -48,6 +54,10 @@ fn motions(report: &RunReport, axis: MachineAxis, sketch: &AxisSketch) -> [Motio
     let words = match axis {
         MachineAxis::X => ["X velocity", "X acceleration", "X jerk"],
         _ => ["Z velocity", "Z acceleration", "Z jerk"],
+    };
+    let short_words = match axis {
+        MachineAxis::X => ["X velocity", "X accel.", "X jerk"],
+        _ => ["Z velocity", "Z accel.", "Z jerk"],
     };
     let units = ["mm/s", "mm/s²", "mm/s³"];
     let all: [(Derivative, &Samples); 3] = [
@@ -64,16 +74,14 @@ fn motions(report: &RunReport, axis: MachineAxis, sketch: &AxisSketch) -> [Motio
     std::array::from_fn(|i| {
         let (derivative, samples) = all[i];
         let values = values(samples, unit::mm::PER);
-        let known = values.iter().copied().filter(|value| value.is_finite());
         let limit = limits
             .iter()
             .find(|limit| limit.axis == axis && limit.derivative == derivative)
             .map(|limit| limit.value);
-        let most = known.chain(limit).fold(0.0, f64::max);
+        let range = Range::with_zero(values.iter().copied().chain(limit));
         let axis = Axis {
-            quantity: words[i],
-            unit: units[i],
-            range: Range::from_zero(most),
+            short: short_words[i],
+            ..Axis::of(words[i], units[i], range)
         };
         Motion {
             axis,

@@ -5,9 +5,10 @@ use turnpath_report::{ErrorMap, PathSketch, Samples, unit};
 use super::along_radius::values;
 use super::square_part::axes;
 use crate::colours::ColourScale;
-use crate::frame::{Axis, square};
+use crate::frame::Axis;
 use crate::range::Range;
 use crate::shape::{Area, Shape};
+use crate::square::square;
 
 /// The part of the radius whose cells set the scale: at its rim a path may leave material of
 /// another scale.
@@ -28,11 +29,7 @@ pub fn map(sketch: &PathSketch, sheet: Area) -> Vec<Shape> {
         from: range.from,
         to: range.to,
     };
-    let bar = Axis {
-        quantity: "error",
-        unit: "nm",
-        range,
-    };
+    let bar = Axis::of("error", "nm", range);
     let (x, y) = axes(map.half * unit::mm::PER);
     let (frame, axes) = square(sheet, (&x, &y), (&bar, scale));
     let picture = (!errors.is_empty()).then(|| Shape::Picture {

@@ -11,12 +11,20 @@ mod square_part;
 use turnpath_report::{PathSketch, RunReport};
 
 use crate::drawing::Drawing;
-use crate::request::{Figure, Size};
+use crate::request::{DrawingError, Figure, Size};
 use crate::shape::Area;
 use crate::sheet::Sheet;
 
 /// Draws a figure of a run. Where the run has nothing of it, its frame is empty.
-pub fn draw(figure: Figure, (report, sketch): (&RunReport, &PathSketch), size: Size) -> Drawing {
+///
+/// # Errors
+/// When the size is below the least size of the figure.
+pub fn draw(
+    figure: Figure,
+    (report, sketch): (&RunReport, &PathSketch),
+    size: Size,
+) -> Result<Drawing, DrawingError> {
+    figure.allows(size)?;
     let sheet = Area {
         left: 0.0,
         top: 0.0,
@@ -36,9 +44,9 @@ pub fn draw(figure: Figure, (report, sketch): (&RunReport, &PathSketch), size: S
         figure.name(),
         report.turnpath
     );
-    Drawing::of(Sheet {
+    Ok(Drawing::of(Sheet {
         title,
         size,
         shapes,
-    })
+    }))
 }

@@ -5,10 +5,11 @@ use turnpath_report::{PathSketch, unit};
 use super::along_radius::values;
 use super::square_part::axes;
 use crate::colours::ColourScale;
-use crate::frame::{Axis, Frame, square};
+use crate::frame::{Axis, Frame};
 use crate::range::Range;
 use crate::series::dots;
 use crate::shape::{Area, Place, Shape};
+use crate::square::square;
 
 /// Diameter of a place, mm.
 const DOT: f64 = 0.35;
@@ -25,22 +26,21 @@ pub fn spiral(sketch: &PathSketch, sheet: Area) -> Vec<Shape> {
     let known = errors.iter().copied().filter(|error| error.is_finite());
     let most = known.fold(0.0, f64::max);
     let bar = Axis {
-        quantity: "|played − true|",
-        unit: "nm",
-        range: Range::even(0.0, most.max(LEAST)),
+        short: "interpolation",
+        ..Axis::of("|played − true|", "nm", Range::even(0.0, most.max(LEAST)))
     };
     let scale = ColourScale {
         from: bar.range.from,
         to: bar.range.to,
     };
-    let sides = [&spiral.x, &spiral.y]
-        .into_iter()
-        .filter_map(|side| side.range());
-    let half = sides.fold(0.0, |half: f64, (least, most)| half.max(-least).max(most));
-    let (x, y) = axes(ROOM * half * unit::mm::PER);
+    let sides = [&spiral.x, &spiral.y].map(|side| values(side, unit::mm::PER));
+    let known = sides.iter().flatten().filter(|side| side.is_finite());
+    let half = known.fold(0.0, |half: f64, side| half.max(side.abs()));
+    let (x, y) = axes(ROOM * half);
     let (frame, axes) = square(sheet, (&x, &y), (&bar, scale));
-    let places = spiral.x.0.iter().zip(&spiral.y.0).zip(&errors);
-    let places = places.map(|((x, y), error)| ([x * unit::mm::PER, y * unit::mm::PER], *error));
+    let [x, y] = &sides;
+    let places = x.iter().zip(y).zip(&errors);
+    let places = places.map(|((x, y), error)| ([*x, *y], *error));
     let shapes = levels(&frame, places, scale);
     let spiral = Shape::Group {
         name: "spiral".to_owned(),
@@ -56,7 +56,9 @@ fn levels(
     scale: ColourScale,
 ) -> Vec<Shape> {
     let mut levels: Vec<Vec<Place>> = vec![Vec::new(); LEVELS];
-    for ([x, y], error) in places.filter(|(_, error)| error.is_finite()) {
+    let known =
+        |([x, y], error): &(Place, f64)| [x, y, error].into_iter().all(|value| value.is_finite());
+    for ([x, y], error) in places.filter(known) {
         let share = (error - scale.from) / (scale.to - scale.from);
         let level = ((share * LEVELS as f64) as usize).min(LEVELS - 1);
         if let Some(level) = levels.get_mut(level) {

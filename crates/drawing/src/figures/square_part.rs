@@ -5,10 +5,6 @@ use crate::range::Range;
 
 /// The axes of x and y over a square around the axis of the part; `half` of a side, mm.
 pub fn axes(half: f64) -> (Axis, Axis) {
-    let axis = |quantity| Axis {
-        quantity,
-        unit: "mm",
-        range: Range::even(-half, half),
-    };
+    let axis = |quantity| Axis::of(quantity, "mm", Range::even(-half, half));
     (axis("x"), axis("y"))
 }

@@ -1,10 +1,11 @@
 //! Drawings against the data that they show, read out of the files as a viewer has them.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
 
+mod layout;
 mod pixels;
 mod svg;
 
-use turnpath_drawing::{Dots, Drawing, Figure, Size, draw};
+use turnpath_drawing::{Dots, Drawing, DrawingError, Figure, Size, draw};
 use turnpath_report::{
     AxisSketch, EdgeSketch, ErrorMap, ErrorSketch, PathSketch, RadialMean, RunReport, Samples,
     SpiralSketch, TurnSketch, from_json, unit,
@@ -86,7 +87,7 @@ fn report() -> RunReport {
 }
 
 fn drawing(figure: Figure) -> Drawing {
-    draw(figure, (&report(), &sketch()), figure.size())
+    draw(figure, (&report(), &sketch()), figure.size()).unwrap()
 }
 
 fn dots() -> Dots {
@@ -218,7 +219,11 @@ fn limits_of_the_machine_are_dashed_lines() {
     let mut report = report();
     let limits = |report: &RunReport| {
         let drawing = draw(Figure::Axes, (report, &sketch()), Figure::Axes.size());
-        drawing.svg().matches("aria-label=\"limit\"").count()
+        drawing
+            .unwrap()
+            .svg()
+            .matches("aria-label=\"limit\"")
+            .count()
     };
     let expected = report.path.machine.as_ref().map_or(0, |machine| {
         let slides = machine
@@ -231,6 +236,15 @@ fn limits_of_the_machine_are_dashed_lines() {
     assert_eq!(limits(&report), expected);
     report.path.machine = None;
     assert_eq!(limits(&report), 0);
+}
+
+#[test]
+fn a_figure_without_room_for_its_letters_is_refused() {
+    let size = Size::new(50.0, 50.0).unwrap();
+    let refused = draw(Figure::Axes, (&report(), &sketch()), size);
+    let figure = Figure::Axes;
+    assert_eq!(refused, Err(DrawingError::Small { figure, size }));
+    assert!(draw(Figure::Map, (&report(), &sketch()), size).is_ok());
 }
 
 #[test]
@@ -252,10 +266,9 @@ fn an_empty_sketch_gives_empty_frames() {
         },
         ..sketch()
     };
-    let small = Size::new(30.0, 30.0).unwrap();
     for figure in Figure::ALL {
-        for size in [small, figure.size()] {
-            let drawing = draw(figure, (&report(), &none), size);
+        for size in [figure.least(), figure.size()] {
+            let drawing = draw(figure, (&report(), &none), size).unwrap();
             assert!(drawing.svg().contains("<path"));
             drawing.png(dots()).unwrap();
         }

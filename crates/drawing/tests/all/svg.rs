@@ -147,3 +147,79 @@ impl Picture {
         [self.area[1], self.area[1] + self.area[3]]
     }
 }
+
+/// Whose line or area a path is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// A title, a number, or other words.
+    Letters,
+    Frame,
+    /// A curve, a stem or a limit.
+    Curve,
+    Dots,
+}
+
+/// A path with the rectangle that it lies in, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    pub part: Part,
+    pub label: String,
+    /// The least x and y, and the largest.
+    pub least: [f64; 2],
+    pub most: [f64; 2],
+}
+
+/// All paths but ticks.
+pub fn drawn(svg: &str) -> Vec<Drawn> {
+    let paths = svg.lines().filter(|line| line.starts_with("<path"));
+    paths.filter_map(drawn_by).collect()
+}
+
+fn drawn_by(line: &str) -> Option<Drawn> {
+    const BLACK: &str = "#000000";
+    let steps = attribute(line, "d");
+    let (fill, stroke) = (attribute(line, "fill"), attribute_of(line, "stroke"));
+    let part = match (fill, stroke) {
+        (BLACK, None) => Part::Letters,
+        (_, None) => Part::Dots,
+        (_, Some(BLACK)) if steps.ends_with('Z') => Part::Frame,
+        (_, Some(BLACK)) => return None,
+        (_, Some(_)) => Part::Curve,
+    };
+    let numbers = steps.split(|c: char| c.is_ascii_alphabetic() || c == ' ');
+    let numbers = numbers.filter(|number| !number.is_empty());
+    let numbers: Vec<f64> = numbers
+        .map(|number| number.parse().unwrap_or(f64::NAN))
+        .collect();
+    let bound = |axis: usize, of: fn(f64, f64) -> f64| {
+        let side = numbers.chunks_exact(2).map(|place| place[axis]);
+        side.reduce(|one, other| match one.is_nan() || other.is_nan() {
+            true => f64::NAN,
+            false => of(one, other),
+        })
+    };
+    Some(Drawn {
+        part,
+        label: attribute_of(line, "aria-label").unwrap_or("").to_owned(),
+        least: [bound(0, f64::min)?, bound(1, f64::min)?],
+        most: [bound(0, f64::max)?, bound(1, f64::max)?],
+    })
+}
+
+impl Drawn {
+    /// Whether it lies in a rectangle that is larger by `room` on all sides.
+    pub fn is_in(&self, least: [f64; 2], most: [f64; 2], room: f64) -> bool {
+        (0..2).all(|i| self.least[i] >= least[i] - room && self.most[i] <= most[i] + room)
+    }
+
+    /// Whether it stands at least so far from another one.
+    pub fn is_apart(&self, other: &Self, distance: f64) -> bool {
+        (0..2).any(|i| {
+            self.least[i] >= other.most[i] + distance || other.least[i] >= self.most[i] + distance
+        })
+    }
+
+    pub fn size(&self) -> [f64; 2] {
+        [self.most[0] - self.least[0], self.most[1] - self.least[1]]
+    }
+}

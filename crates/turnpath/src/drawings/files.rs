@@ -87,6 +87,7 @@ impl Drawings {
         let mut drafts = Vec::new();
         for file in &self.0 {
             let drawing = draw(file.figure, (report, sketch), file.size);
+            let drawing = drawing.map_err(DrawingFileError::from)?;
             let bytes = match file.form {
                 Form::Svg => drawing.svg().into_bytes(),
                 Form::Png(dots) => drawing.png(dots).map_err(DrawingFileError::from)?,
@@ -107,6 +108,7 @@ impl Drawings {
 
 fn drawing_file(request: &DrawingRequest, folder: &Path) -> Result<DrawingFile, DrawingFileError> {
     let size = request.size.unwrap_or(request.figure.size());
+    request.figure.allows(size)?;
     let ending = request.file.extension().unwrap_or_default();
     let form = match ending.to_string_lossy().to_ascii_lowercase().as_str() {
         "svg" => Form::Svg,
