@@ -108,6 +108,11 @@ impl InstantBatch {
         self.errors.chunks_exact(self.segments.max(1))
     }
 
+    /// The same, and a chunk for the ends of all segments.
+    pub fn each_time(&self) -> impl Iterator<Item = &[f64]> {
+        self.each_instant().chain(self.end_errors.get(1..))
+    }
+
     /// Played − true Z at both ends of one segment of the batch, mm.
     pub fn end_errors(&self, segment: usize) -> [f64; 2] {
         [self.end_errors[segment], self.end_errors[segment + 1]]

@@ -8,6 +8,7 @@ use turnpath_core::toolpath::{PathBlock, Segment};
 
 use crate::corners::at_corners;
 use crate::instants::{BATCH, INSTANTS, InstantBatch, batches};
+use crate::sharp_peaks::sharp_peaks;
 use crate::spokes::SegmentErrors;
 use crate::touch::{FirstTouch, Touch};
 use crate::worst::Worst;
@@ -118,7 +119,12 @@ pub(crate) fn play_back(
             false => Vec::new(),
         };
         let squares = in_widest(Squares(&instants));
-        let largest = Worst::of_batch(&instants).zip(squares);
+        let mut largest: Vec<Worst> = Worst::of_batch(&instants).take(batch.len()).collect();
+        let peaks = sharp_peaks(touch, points, batch.clone(), (&instants, &largest))?;
+        for (index, top) in peaks {
+            largest[index] = largest[index].or(Some(top));
+        }
+        let largest = largest.into_iter().zip(squares);
         for (index, (number, (worst, square))) in batch.zip(largest).enumerate() {
             let duration = points.t[number + 1] - points.t[number];
             figures.square += square * duration / INSTANTS as f64;

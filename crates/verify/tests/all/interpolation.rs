@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::common::{AST5, SPEED, astigmatic_path, figures, touch_on};
-use turnpath_core::{DEG, NM};
+use turnpath_core::toolpath::{ControlPoint, PathBlock};
+use turnpath_core::{DEG, NM, Scalar, Surface};
 
 const STEP: f64 = 9.0 * DEG;
 const RIM: f64 = 2.5;
@@ -71,6 +72,75 @@ fn the_top_of_a_lopsided_error_is_found_between_instants() {
     let found = figures(&touch_on(AST5, RIM, 1.0, false), &turn).playback;
     let top = 4.0 / 27.0 * 1e-3 * DEG / SPEED;
     assert!((found.max() / top - 1.0).abs() < 2e-3);
+}
+
+/// A roof with a ridge along x. On its way round, the nose meets the ridge at C = 0, and comes down again at once.
+struct Roof {
+    slope: f64,
+}
+
+impl Surface for Roof {
+    const IN_WIDE_REGISTERS: bool = false;
+
+    fn sag<S: Scalar>(&self, _: S, y: S) -> S {
+        -(y.squared() + 1e-30).sqrt() * self.slope
+    }
+}
+
+/// Z of the nose over the roof, mm, and its rate with C.
+fn over_roof(slope: f64, c: f64) -> [f64; 2] {
+    let (sin, cos) = Scalar::sin_cos(c);
+    let slant = (1.0 + slope * slope * sin * sin).sqrt();
+    let z = -slope * RIM * sin.abs() + NOSE * slant;
+    let rate = -slope * RIM * cos * c.signum() + NOSE * slope * slope * sin * cos / slant;
+    [z, rate]
+}
+
+const NOSE: f64 = 1.0;
+
+/// A segment over a ridge, which lies anywhere between two instants, against ten thousand places of the closed form.
+#[test]
+fn the_top_over_a_ridge_is_found_between_instants() {
+    let slope = 2e-3;
+    let touch = touch_on(Roof { slope }, RIM, NOSE, true);
+    for place in [
+        5.5 / 16.0,
+        0.3,
+        0.51,
+        8.0 / 16.0,
+        1.4 / 16.0,
+        0.6 / 16.0,
+        15.5 / 16.0,
+    ] {
+        let ends = [-place * STEP, (1.0 - place) * STEP];
+        let nodes = ends.map(|c| (c, over_roof(slope, c)));
+        let mut points = PathBlock::default();
+        for (c, [z, rate]) in nodes {
+            points.push(ControlPoint {
+                t: (c - ends[0]) / SPEED,
+                c,
+                x: RIM,
+                z,
+                vc: SPEED,
+                vx: 0.0,
+                vz: rate * SPEED,
+            });
+        }
+        let [(_, [z0, r0]), (_, [z1, r1])] = nodes;
+        let error = |s: f64| {
+            let u = 1.0 - s;
+            let by_places = z0 * u * u * (1.0 + 2.0 * s) + z1 * s * s * (1.0 + 2.0 * u);
+            let by_rates = STEP * s * u * (r0 * u - r1 * s);
+            by_places + by_rates - over_roof(slope, ends[0] + s * STEP)[0]
+        };
+        let each = (0..=10_000).map(|k| error(f64::from(k) * 1e-4).abs());
+        let largest = each.fold(0.0, f64::max);
+        let found = figures(&touch, &points).playback.max();
+        assert!(
+            (found / largest - 1.0).abs() < 4e-3,
+            "{place}: {found} for {largest}"
+        );
+    }
 }
 
 #[test]

@@ -1,0 +1,149 @@
+//! Sharp peaks of the error. Where the nose rolls over a ridge, the error has a peak with nearly straight flanks.
+//! Its top lies between two instants, and a parabola through instants does not reach it.
+
+use std::ops::Range;
+
+use turnpath_core::Result;
+use turnpath_core::registers::{Loop, in_widest};
+use turnpath_core::toolpath::{PathBlock, Segment};
+
+use crate::between_instants::play;
+use crate::instants::{BATCH, INSTANTS, InstantBatch};
+use crate::touch::FirstTouch;
+use crate::worst::Worst;
+
+/// A segment may have a sharp peak if a sixth difference of its errors exceeds this part of the largest one. The top
+/// of a peak with straight flanks lies above its highest instant by a sixth of that difference at the most, and beside
+/// the segment's ends by half of it. The error of a cubic on a smooth path is nearly a quartic, whose sixth
+/// differences are zero.
+const SHARP: f64 = 0.02;
+/// Sixth differences below this are rounding or too small to matter, mm: a thousandth of a nanometre.
+const SMALL: f64 = 1e-9;
+/// Errors of a sixth difference.
+const STENCIL: usize = 7;
+/// Rounds of the search for a top. Two of them halve its interval: in the end it is a thousandth of the segment.
+const ROUNDS: usize = 14;
+
+/// The interval in which a top is searched: two times within a segment, 0 to 1, and the highest place between them.
+struct Peak {
+    /// The number of the segment in its batch.
+    segment: usize,
+    lower: f64,
+    upper: f64,
+    top: Worst,
+}
+
+/// The tops of sharp peaks, each with the number of its segment in the batch. `largest` are the largest errors that are
+/// known of each segment. A peak that cannot be higher than these is left out.
+pub(crate) fn sharp_peaks(
+    touch: &FirstTouch,
+    points: &PathBlock,
+    batch: Range<usize>,
+    (instants, largest): (&InstantBatch, &[Worst]),
+) -> Result<Vec<(usize, Worst)>> {
+    let bends = in_widest(SixthDifferences(instants));
+    let mut peaks = Vec::new();
+    for (segment, (largest, bend)) in largest.iter().zip(bends).enumerate() {
+        if bend > SMALL.max(SHARP * largest.amount()) {
+            peaks.extend(peaks_of(instants, segment, largest.amount()));
+        }
+    }
+    if peaks.is_empty() {
+        return Ok(Vec::new());
+    }
+    let segments: Vec<Segment> = batch.filter_map(|number| points.segment(number)).collect();
+    for _ in 0..ROUNDS {
+        let places: Vec<(usize, f64)> = peaks
+            .iter()
+            .map(|peak| (peak.segment, peak.next()))
+            .collect();
+        let (_, errors) = play(touch, &segments, &places)?;
+        for ((peak, (_, at)), error) in peaks.iter_mut().zip(places).zip(errors) {
+            peak.close_in(Worst { error, at });
+        }
+    }
+    let tops = peaks.into_iter().map(|peak| (peak.segment, peak.top));
+    Ok(tops.collect())
+}
+
+/// The peaks of a segment that may be higher than the largest error that is known, mm. A flank rises no further than
+/// it has risen from the instant before.
+fn peaks_of(
+    instants: &InstantBatch,
+    segment: usize,
+    largest: f64,
+) -> impl Iterator<Item = Peak> + '_ {
+    let error = move |instant: usize| match instant {
+        INSTANTS => instants.end_errors(segment)[1],
+        _ => instants.error(segment, instant),
+    };
+    (0..=INSTANTS).filter_map(move |instant| {
+        let top = error(instant);
+        let (before, after) = (instant.saturating_sub(1), (instant + 1).min(INSTANTS));
+        let rise = |other: usize| top.abs() - error(other).abs();
+        let (from_before, from_after) = (rise(before), rise(after));
+        let is_top = from_before >= 0.0 && from_after >= 0.0;
+        let may_be_higher = top.abs() + from_before.max(from_after) > largest;
+        let at = |instant: usize| instant as f64 / INSTANTS as f64;
+        (is_top && may_be_higher).then(|| Peak {
+            segment,
+            lower: at(before),
+            upper: at(after),
+            top: Worst {
+                error: top,
+                at: at(instant),
+            },
+        })
+    })
+}
+
+impl Peak {
+    /// The next place to be played: the middle of the longer side.
+    fn next(&self) -> f64 {
+        let end = match self.top.at - self.lower > self.upper - self.top.at {
+            true => self.lower,
+            false => self.upper,
+        };
+        0.5 * (self.top.at + end)
+    }
+
+    /// Closes in on the top: what was played is the new top, or an end of the interval.
+    fn close_in(&mut self, played: Worst) {
+        let end = match played.amount() > self.top.amount() {
+            true => std::mem::replace(&mut self.top, played).at,
+            false => played.at,
+        };
+        match end < self.top.at {
+            true => self.lower = end,
+            false => self.upper = end,
+        }
+    }
+}
+
+/// The loop over the largest sixth difference of the errors of each segment, mm.
+struct SixthDifferences<'a>(&'a InstantBatch);
+
+impl Loop for SixthDifferences<'_> {
+    type Output = [f64; BATCH];
+
+    #[inline(always)]
+    fn call(self) -> [f64; BATCH] {
+        let columns: Vec<&[f64]> = self.0.each_time().collect();
+        let mut largest = [0.0_f64; BATCH];
+        for window in columns.windows(STENCIL) {
+            let Ok(errors) = <[&[f64]; STENCIL]>::try_from(window) else {
+                continue;
+            };
+            // Columns of one known length need no look at their ends in the loop.
+            let count = errors[0].len().min(BATCH);
+            let [a, b, c, d, e, f, g] = errors.map(|column| &column[..count]);
+            let largest = &mut largest[..count];
+            for i in 0..count {
+                let beside = 15.0 * (c[i] + e[i]) - 20.0 * d[i];
+                let difference = (a[i] + g[i]) - 6.0 * (b[i] + f[i]) + beside;
+                largest[i] = largest[i].max(difference.abs());
+            }
+        }
+        largest
+    }
+}
