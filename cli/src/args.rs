@@ -180,8 +180,8 @@ pub struct RunArgs {
     /// Where the files go; `out/<name>` unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Write a dry run beside each program: it stops at C = 0, 90, 180 and 270 deg with the tool high
-    /// above the rim, and says how high the part is there
+    /// Write a dry run beside each program: it stops at C = 0, 90, 180 and 270 deg, and at an angle that
+    /// shows more, with the tool high above the rim, and says how high the part is there
     #[arg(long)]
     pub dry_run: bool,
     /// Leave out the page of the result, report.html

@@ -6,7 +6,7 @@ use std::process::Stdio;
 use crate::support::bench::Bench;
 use crate::support::recipe::{SADDLE, changed};
 
-/// The saddle's recipe, and one that takes its surface from a map of it, beside a result of each.
+/// The saddle's recipe, and one that takes its surface from a map of it.
 fn bench() -> Bench {
     let bench = Bench::with(SADDLE);
     bench.line("sag recipe.toml --grid 25 -o map.gsf").ends(0);
@@ -49,6 +49,22 @@ fn a_run_and_verify_leave_the_map_that_the_recipe_reads() {
         .line("run mapped.toml -o new --map ../other.gsf")
         .ends(0);
     assert!(bench.path("other.gsf").is_file());
+}
+
+/// The result before lists the map, and the one that is made from it does not.
+#[test]
+fn a_run_leaves_the_map_of_the_result_that_it_replaces() {
+    let bench = bench();
+    let map = "file = \"out/m.gsf\"\nscale = 1e-4";
+    let second = changed(&bench.read("mapped.toml"), "file = \"map.gsf\"", map);
+    bench.write("second.toml", second);
+    bench
+        .line("run recipe.toml -o out --map m.gsf --map-size 40")
+        .ends(0);
+    bench.line("check second.toml").ends(0);
+    bench.line("run second.toml -o out");
+    assert!(bench.path("out/m.gsf").is_file());
+    bench.line("check second.toml").ends(0);
 }
 
 #[test]

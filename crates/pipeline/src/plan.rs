@@ -93,7 +93,7 @@ pub struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     /// Plans the laws and the nodes. The spindle strategy gets no factors yet. A sequential sampler
-    /// runs once over the path, so that its states are known.
+    /// runs over the path, so that its states are known.
     pub fn new(
         chain: &'a Chain,
         preparation: &'a Preparation,
@@ -227,18 +227,25 @@ impl<'a> Plan<'a> {
         self.shorten_blocks();
         self.sampler_states = Vec::new();
         (self.repeated, self.repeats_nodes) = (None, false);
-        if self.sampler.dependence() == Dependence::Sequential {
-            self.learn_states(observer)?;
-            // The first revolution may have far fewer nodes than others.
-            if self.shorten_blocks() {
-                self.learn_states(observer)?;
-            }
+        match self.sampler.dependence() {
+            Dependence::Sequential => self.learn_states(observer),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
-    /// Learns the states of a sequential sampler, and where its nodes are densest.
+    /// Learns the states of a sequential sampler. Its first revolution may have far fewer nodes than others, so blocks
+    /// may turn out to be too long.
     fn learn_states(&mut self, observer: &dyn Observer) -> Result<()> {
+        loop {
+            self.run_over_nodes(observer)?;
+            if !self.shorten_blocks() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Runs a sequential sampler over the path: its states at all blocks, and where its nodes are densest.
+    fn run_over_nodes(&mut self, observer: &dyn Observer) -> Result<()> {
         let (mut state, mut states) = (Vec::new(), Vec::new());
         let mut nodes = 0;
         for index in 0..self.blocks() {
@@ -246,9 +253,11 @@ impl<'a> Plan<'a> {
             states.push(state.clone());
             let Revolutions { start, end } = self.revolutions(index);
             let own = self.place_from(index, &mut state)?.len();
-            self.density = self.density.max(own as f64 / (end - start));
+            // The last block may be a small part of a revolution.
+            self.density = self.density.max(own as f64 / (end - start).max(1.0));
             nodes += own;
-            check_points(self.distance(), end, nodes as f64 / end)?;
+            let revolutions = self.law.end();
+            check_points(self.distance(), revolutions, nodes as f64 / revolutions)?;
         }
         self.sampler_states = states;
         Ok(())
@@ -283,7 +292,10 @@ impl<'a> Plan<'a> {
             sparsest = sparsest.min(nodes.len());
         }
         self.density = densest as f64;
-        check_points(self.distance(), self.law.end(), sparsest as f64)
+        match sequential {
+            true => Ok(()),
+            false => check_points(self.distance(), self.law.end(), sparsest as f64),
+        }
     }
 
     /// What the controller plays between control points.

@@ -74,8 +74,9 @@ pub fn sample_path(
     let whole_block = plan.block();
     // What refinement does with a block of such a path follows from all blocks before.
     let refines_whole_path = options.refine && is_sequential(&plan);
-    if !refines_whole_path {
-        plan.divide_for_sample();
+    match refines_whole_path {
+        true => plan.hold_nodes(),
+        false => plan.divide_for_sample(),
     }
     let are_cut = plan.block() < whole_block;
     let strata = strata(plan.blocks());

@@ -1,5 +1,5 @@
-//! The dry run of a program: it turns C to quarters of a turn with the tool high above the rim, and stops
-//! at each, so that a person sees which side of the part lies under the tool.
+//! The dry run of a program: it turns C to some angles with the tool high above the rim, and stops at
+//! each, so that a person sees which side of the part lies under the tool.
 //!
 //! Nothing in it goes lower than the plane of the program's approach.
 

@@ -24,13 +24,8 @@ pub(crate) fn check_turn(
     let turn = turn.filter(|turn| section == Section::Cutting && !is_small(turn));
     let grows = |turn: f64| turn > 0.0 && turn <= LARGEST_TURN_DEG;
     if let Some(turn) = turn.map(|turn| turn / DEG).filter(|turn| !grows(*turn)) {
-        let sense = if turn < 0.0 {
-            "; with another `c_sign` it would run the other way"
-        } else {
-            ""
-        };
         return Err(format!(
-            "C turns by {turn:?} deg from the previous point; it must grow, by at most 360 deg{sense}"
+            "C turns by {turn:?} deg from the previous point; it must grow, by at most 360 deg"
         ));
     }
     // No division where C is far below.

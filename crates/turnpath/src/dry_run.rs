@@ -17,6 +17,9 @@ const NM: f64 = 1e6;
 /// Differences below this cannot be seen by any eye or gauge, nm.
 const SEEN_NM: f64 = 100.0;
 
+/// The angle that tells most of the sense of C has a stop if it tells so many times more than a quarter of a turn.
+const MUCH_MORE: f64 = 10.0;
+
 impl Job {
     /// The dry run of a program whose path has this extent.
     pub(crate) fn dry_run(
@@ -71,22 +74,32 @@ fn heights_at_rim(surface: &dyn SurfaceModel, rim: f64) -> Result<Vec<f64>, Stra
     Ok(z)
 }
 
-/// What the stops show of the sense of C.
+/// What the heights show of the sense of C.
 fn what_shows(heights: &[f64]) -> &'static str {
+    if heights.iter().any(|height| !height.is_finite()) {
+        return "the part has no height at some angles of the rim: mark it, and look for the mark at 90 deg";
+    }
     match telling_angle(heights) {
-        Some(_) => "if the part under the tool is not as said at a stop, change c_sign",
-        None => "the rim is alike for both senses of C: no stop shows whether c_sign is right",
+        Some(_) => {
+            "if another place of the part is under the tool at a stop, change c_sign or the zero of C"
+        }
+        None => {
+            "the heights are alike for both senses of C: mark the part, and look for the mark at 90 deg"
+        }
     }
 }
 
 /// The stops: four quarters of a turn, and the angle that tells most of the sense of C if the quarters tell
-/// nothing.
+/// little.
 fn stops(heights: &[f64]) -> Vec<DryStop> {
     let mut angles: Vec<usize> = (0..TURN_DEG).step_by(QUARTER_DEG).collect();
-    if !shows_sense(heights, QUARTER_DEG) {
-        angles.extend(telling_angle(heights));
-        angles.sort_unstable();
-    }
+    let at_quarter = rise_over_opposite(heights, QUARTER_DEG).abs();
+    let tells_more = |deg: &usize| {
+        let rise = rise_over_opposite(heights, *deg).abs();
+        !shows_sense(heights, QUARTER_DEG) || rise > MUCH_MORE * at_quarter
+    };
+    angles.extend(telling_angle(heights).filter(tells_more));
+    angles.sort_unstable();
     let height = |deg: usize| heights.get(deg).copied().unwrap_or(f64::NAN);
     let stop = |deg: usize| DryStop {
         c_deg: deg as i64,
@@ -180,5 +193,15 @@ mod tests {
         let alike = rim(|angle| 0.01 * Scalar::cos(2.0 * angle));
         assert_eq!(stops(&alike).len(), 4);
         assert!(what_shows(&alike).contains("alike for both senses"));
+        let unknown = rim(|angle| if angle > 6.0 { f64::NAN } else { 0.0 });
+        assert!(what_shows(&unknown).contains("no height"));
+    }
+
+    #[test]
+    fn a_quarter_that_tells_little_leaves_room_for_an_angle_that_tells_much() {
+        let tilted = rim(|angle| 0.01 * Scalar::sin(2.0 * angle) + 1e-4 * Scalar::sin(angle));
+        assert_eq!(stops(&tilted).len(), 5);
+        let steep = rim(|angle| 0.01 * Scalar::sin(2.0 * angle) + 5e-3 * Scalar::sin(angle));
+        assert_eq!(stops(&steep).len(), 4);
     }
 }

@@ -1,17 +1,13 @@
 //! The files of a run: begun with its first control points, and named together when all is done.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 use turnpath_core::toolpath::{Section, SectionBlock};
-use turnpath_files::{
-    Contents, Draft, FileError, FolderError, ListedFile, ResultFolder, WholeFile,
-};
-use turnpath_page::is_page;
+use turnpath_files::{Contents, Draft, FileError, FolderError, ResultFolder, WholeFile};
 use turnpath_pipeline::{DraftSink, Estimate, Observer, Outcome, Sink};
 use turnpath_post::{
     ColumnFormat, Columns, Lines, PathReader, PathWriter, ProgramPath, ProgramWriter, WriteColumns,
@@ -28,12 +24,10 @@ use crate::program_room::ProgramRoom;
 
 use crate::sinks::SinkError;
 use crate::sizes::{bytes_while_assembled, check_room, column_bytes, toolpath_bytes};
-use crate::summary::{PAGE, SUMMARY};
+use crate::summary::{PAGE, SUMMARY, own_page};
 
 /// The table of the path.
 pub const TOOLPATH: &str = "toolpath.csv";
-/// So many bytes of a page show who made it.
-const PAGE_MARK_BYTES: u64 = 256;
 
 /// Takes a folder for one run alone, however often the run makes its path.
 ///
@@ -387,21 +381,6 @@ impl WholeResult {
         let written = draft.write_all(text.as_bytes());
         written.map_err(FileError::of(&path))?;
         draft.finish()
-    }
-}
-
-/// The page that turnpath made in a folder; `None` if there is none, or one that is somebody else's.
-fn own_page(folder: &Path) -> Result<Option<ListedFile>, FileError> {
-    let path = folder.join(PAGE);
-    let mut beginning = Vec::new();
-    let read =
-        File::open(&path).and_then(|file| file.take(PAGE_MARK_BYTES).read_to_end(&mut beginning));
-    match read {
-        Ok(_) if is_page(&beginning) => {
-            let contents = Contents::of_file(&path).map_err(FileError::of(&path))?;
-            Ok(Some(ListedFile::new(PAGE, &contents)))
-        }
-        _ => Ok(None),
     }
 }
 

@@ -29,19 +29,10 @@ pub fn refuse_as_output<'a>(
 }
 
 impl Job {
-    /// Refuses outputs that would replace the recipe or a data file that it names.
-    ///
-    /// # Errors
-    /// When one of them is such a file.
-    pub(crate) fn refuse_inputs_as_outputs(
-        &self,
-        outputs: impl IntoIterator<Item = PathBuf>,
-    ) -> Result<(), Error> {
+    /// The recipe, and the data files that it names.
+    pub(crate) fn inputs(&self) -> Vec<PathBuf> {
         let named = self.data_files.iter();
         let named = named.map(|used| self.recipe.resolve(&used.path));
-        let inputs: Vec<PathBuf> = named.chain([self.recipe.path().to_owned()]).collect();
-        outputs
-            .into_iter()
-            .try_for_each(|output| refuse_as_output(&output, inputs.iter().map(PathBuf::as_path)))
+        named.chain([self.recipe.path().to_owned()]).collect()
     }
 }

@@ -134,7 +134,8 @@ impl PluginsLock {
     /// When the file is there and is no lock, when it cannot be written, or when the hash of a library cannot be
     /// calculated.
     pub fn write(catalogue: &Catalogue, file: &Path) -> Result<(), Error> {
-        if file.is_file() && Self::load(file).is_err() {
+        let is_empty = |file: &Path| fs::metadata(file).is_ok_and(|found| found.len() == 0);
+        if file.is_file() && !is_empty(file) && Self::load(file).is_err() {
             let path = file.to_owned();
             return Err(Error::NoLock { path });
         }

@@ -1,5 +1,7 @@
 //! The paths before the finishing one: each is a job of its own whose surface is lifted.
 
+use std::path::PathBuf;
+
 use turnpath_files::{FolderError, ResultFolder, WholeFile};
 use turnpath_pipeline::Observer;
 use turnpath_recipe::RoughPath;
@@ -36,6 +38,11 @@ impl RoughJob {
     /// The names of its files.
     pub fn files(&self, dry_run: bool) -> Vec<String> {
         self.job.file_names(dry_run)
+    }
+
+    /// The data files that its recipe names, and the recipe.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        self.job.inputs()
     }
 
     /// What the path and its files will be.

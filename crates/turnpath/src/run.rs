@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use turnpath_core::{Misfit, Slot};
-use turnpath_files::Draft;
+use turnpath_files::{Draft, ResultFolder};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{DraftSink, Observer, Outcome, run as run_pipeline};
 use turnpath_report as report;
@@ -18,6 +18,7 @@ use crate::error::Error;
 use crate::figures::{self, CutFigures, material_threshold};
 use crate::folder::{FolderSink, WholeResult, open_folder, result_files};
 use crate::form::{FormPath, search_split};
+use crate::input_files::refuse_as_output;
 use crate::job::Job;
 use crate::memory::MemorySink;
 use crate::named_files::UsedFile;
@@ -27,7 +28,7 @@ use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
 use crate::program::ProgramText;
 use crate::remarks::PathSubject;
-use crate::rough_paths::can_be_in_result;
+use crate::rough_paths::{RoughJob, can_be_in_result};
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
 
@@ -203,9 +204,19 @@ impl Job {
         let names = rough_paths.iter().flat_map(|rough| rough.files(dry_run));
         let names = names.chain(result_files(self, dry_run));
         let pictures = plots.files().chain(beside.drawings.files());
-        let outputs = names.map(|name| folder.join(name));
-        self.refuse_inputs_as_outputs(outputs.chain(pictures.map(Path::to_owned)))?;
-        let result = open_folder(folder, self, dry_run)?;
+        let mut outputs = names
+            .map(|name| folder.join(name))
+            .chain(pictures.map(Path::to_owned));
+        let of_rough = rough_paths.iter().flat_map(RoughJob::inputs);
+        let inputs: Vec<PathBuf> = self.inputs().into_iter().chain(of_rough).collect();
+        outputs.try_for_each(|output| {
+            refuse_as_output(&output, inputs.iter().map(PathBuf::as_path))
+        })?;
+        let mut result = open_folder(folder, self, dry_run)?;
+        // What the run reads stays, though a result before it may list it.
+        let inputs = inputs.iter();
+        let members = inputs.filter_map(|input| ResultFolder::member(folder, input));
+        members.for_each(|name| result.keeps(name));
         let (mut of_rough, mut files) = (Vec::new(), Vec::new());
         for rough in &rough_paths {
             let (report, whole) = rough.run(&result, dry_run, observer)?;

@@ -1,8 +1,11 @@
 //! The summary in a folder, which may be anything: it is read up to a limit, and judged.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use turnpath_files::{ListedFile, ResultFolder, read_bounded_text};
+use turnpath_files::{Contents, FileError, ListedFile, ResultFolder, read_bounded_text};
+use turnpath_page::is_page;
 use turnpath_report::{FormatError, RunReport, from_json};
 
 /// The report of a run, which lists its files.
@@ -11,6 +14,8 @@ pub const SUMMARY: &str = "summary.json";
 pub const ABLATION: &str = "ablation.json";
 /// The page of a run or of an ablation. No summary lists it: it can be made from the result again.
 pub const PAGE: &str = "report.html";
+/// So many bytes of a page show who made it.
+const PAGE_MARK_BYTES: u64 = 256;
 /// The most bytes of a summary or a record that are read: far more than any has.
 pub const MOST_BYTES: u64 = 1 << 26;
 
@@ -47,6 +52,21 @@ impl FolderSummary {
             Err(FormatError::OtherForm { .. }) => Self::None,
             Err(error) => Self::Damaged(error.to_string()),
         }
+    }
+}
+
+/// The page that turnpath made in a folder; `None` if there is none, or one that is somebody else's.
+pub fn own_page(folder: &Path) -> Result<Option<ListedFile>, FileError> {
+    let path = folder.join(PAGE);
+    let mut beginning = Vec::new();
+    let read =
+        File::open(&path).and_then(|file| file.take(PAGE_MARK_BYTES).read_to_end(&mut beginning));
+    match read {
+        Ok(_) if is_page(&beginning) => {
+            let contents = Contents::of_file(&path).map_err(FileError::of(&path))?;
+            Ok(Some(ListedFile::new(PAGE, &contents)))
+        }
+        _ => Ok(None),
     }
 }
 

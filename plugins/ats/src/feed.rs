@@ -119,7 +119,7 @@ impl AtsPlan {
             if law.len() > MOST_PIECES {
                 return Err(StrategyError::failed(format!(
                     "planned from its end, the law has more than {MOST_PIECES} pieces; give a larger \
-                     residual, or write inward = \"recursion\""
+                     residual"
                 )));
             }
         }

@@ -44,6 +44,8 @@ pub struct ResultFolder {
     parts: AtomicU64,
     /// Files that go when the result gets its names, beside those that the index before lists.
     outdated: Vec<ListedFile>,
+    /// Files that stay although the index before lists them.
+    kept: Vec<String>,
     // Dropped in this order.
     staging: Staging,
     _hidden: MadeFolders,
@@ -73,6 +75,7 @@ impl ResultFolder {
             folder: folder.to_owned(),
             parts: AtomicU64::new(0),
             outdated: Vec::new(),
+            kept: Vec::new(),
             staging: staging.map_err(FileError::of(folder))?,
             _hidden: hidden,
             _claim: claim,
@@ -151,6 +154,11 @@ impl ResultFolder {
         self.outdated.push(file);
     }
 
+    /// Lets the file of this name stay, although the index before lists it: the new result was made from it.
+    pub fn keeps(&mut self, file: String) {
+        self.kept.push(file);
+    }
+
     /// Makes the files the result of the folder; `index` is the one that lists them. What only the
     /// index before lists is removed.
     ///
@@ -188,6 +196,7 @@ impl ResultFolder {
         let index = index.member().unwrap_or_default();
         let plan = Plan::new(&self.folder, index, &names);
         let mut plan = plan.map_err(FileError::of(&self.folder.join(index)))?;
+        plan.remove.retain(|old| !self.kept.contains(&old.file));
         plan.remove.extend(self.outdated.iter().cloned());
         let mut draft = Draft::begin_as(path.clone(), path.clone(), Some(PLAN.to_owned()))?;
         let written = plan.text().and_then(|text| draft.write_all(&text));

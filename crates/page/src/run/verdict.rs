@@ -98,7 +98,13 @@ fn figures(report: &RunReport, name: &str) -> (String, String) {
         "interpolation" => lengths(Some(path.interpolation_error.max), tolerance.interpolation),
         "residual" => lengths(path.residual.max, tolerance.residual),
         "form" => lengths(path.form.as_ref().and_then(|form| form.pv), tolerance.form),
-        "coverage" => lengths(Some(path.coverage.largest()), tolerance.most_material()),
+        "coverage" => match path.coverage.largest() {
+            largest if largest.is_finite() => lengths(Some(largest), tolerance.most_material()),
+            _ => (
+                "not reached".to_owned(),
+                lengths(None, tolerance.most_material()).1,
+            ),
+        },
         "servo" => lengths(
             path.servo.map(|servo| servo.predicted_error.max),
             tolerance.servo,

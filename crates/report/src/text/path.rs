@@ -108,15 +108,15 @@ fn arms(path: &PathReport) -> String {
 /// The warning where the path takes the nose radius as 0, as lines.
 fn real_nose(nose: Option<&RealNose>) -> String {
     let lines = nose.map(|nose| {
-        let [gouge, left] = real_nose_warning(nose);
+        let (gouge, left) = real_nose_warning(nose);
         let left = left.map(|left| line("", left));
-        line("warning", gouge.unwrap_or_default()) + &left.unwrap_or_default()
+        line("warning", gouge) + &left.unwrap_or_default()
     });
     lines.unwrap_or_default()
 }
 
 /// The warning where the path takes the nose radius as 0: how deep the real nose goes, and what it leaves.
-pub fn real_nose_warning(nose: &RealNose) -> [Option<String>; 2] {
+pub fn real_nose_warning(nose: &RealNose) -> (String, Option<String>) {
     let point = |point: &SurfacePoint| {
         let amount = small_length(point.error.abs());
         let [x, y] = [point.x, point.y].map(|mm| millimetres(mm, 4));
@@ -129,7 +129,7 @@ pub fn real_nose_warning(nose: &RealNose) -> [Option<String>; 2] {
     let text = format!("the path takes the nose radius as 0; the real nose {gouge}");
     let leaves = nose.highest.error > 0.0;
     let left = leaves.then(|| format!("and leaves up to {}", point(&nose.highest)));
-    [Some(text), left]
+    (text, left)
 }
 
 fn surface_error(error: Option<&SurfaceError>) -> String {

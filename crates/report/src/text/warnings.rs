@@ -11,8 +11,8 @@ use super::remark::sentence;
 pub fn warnings(report: &RunReport) -> Vec<String> {
     let path = &report.path;
     let nose = path.real_nose.as_ref().map(|nose| {
-        let words = real_nose_warning(nose).into_iter().flatten();
-        words.collect::<Vec<_>>().join(", ")
+        let (gouge, left) = real_nose_warning(nose);
+        left.map_or_else(|| gouge.clone(), |left| format!("{gouge}, {left}"))
     });
     let crossing = axis_crossing_warning(&path.axis_crossing);
     let lead = path.lead.as_ref().and_then(lead_warning);

@@ -129,9 +129,10 @@ impl Plots {
         Ok(())
     }
 
-    /// Refuses files that the result of their folder lists.
+    /// Refuses files that the result of their folder lists, also behind links.
     pub fn leave_results(&self) -> Result<(), PlotError> {
         let is_listed = |file: &&Path| {
+            let file = &fs::canonicalize(file).unwrap_or_else(|_| file.to_path_buf());
             let folder = folder_of(file);
             matches!(FolderSummary::of(&folder), FolderSummary::Read(report) if lists(&report, &folder, file))
         };
