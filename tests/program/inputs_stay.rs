@@ -62,7 +62,8 @@ fn a_run_leaves_the_map_of_the_result_that_it_replaces() {
         .line("run recipe.toml -o out --map m.gsf --map-size 40")
         .ends(0);
     bench.line("check second.toml").ends(0);
-    bench.line("run second.toml -o out");
+    bench.line("run second.toml -o out -q").ends(0);
+    assert!(!bench.read("out/summary.json").contains("\"m.gsf\""));
     assert!(bench.path("out/m.gsf").is_file());
     bench.line("check second.toml").ends(0);
 }

@@ -102,17 +102,17 @@ fn what_a_controller_does_not_take_is_refused_by_check_and_by_run() {
         (
             "memory = \"20 kB\"",
             "memory is 20 kB",
-            "write a smaller split",
+            "write `split`, or a smaller one",
         ),
         (
             "memory = \"100 blocks\"",
             "memory is 100 blocks",
-            "write a smaller split",
+            "write `split`, or a smaller one",
         ),
         (
             "split = \"30 kB\"\nmemory = \"20 kB\"",
             "memory is 20 kB",
-            "smaller split",
+            "a smaller one",
         ),
         (
             "segments_per_second = 100",

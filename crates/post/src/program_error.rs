@@ -233,7 +233,8 @@ impl ProgramError {
             }
             Self::ShortLine { .. } => {
                 "turn the spindle slower, or give more tolerance of interpolation, so that lines are \
-                 longer; servo_period says what the machine has"
+                 longer; the lines of a lead are longer with a smaller machine.c_acceleration; \
+                 servo_period says what the machine has"
             }
             Self::ManyChords { .. } => {
                 "place points closer together, or give more tolerance of interpolation"
@@ -259,7 +260,7 @@ impl ProgramError {
                  are longer"
             }
             Self::Large { .. } if has("split") => {
-                "write a smaller split, so that the program calls parts that fit"
+                "write `split`, or a smaller one, so that the program calls parts that fit"
             }
             Self::Large { .. } => {
                 "give more tolerance of interpolation, or feed faster, so that the program is shorter"

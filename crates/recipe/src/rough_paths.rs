@@ -118,6 +118,9 @@ impl Recipe {
     }
 }
 
+/// Digits behind the point of lengths in messages.
+const DIGITS: f64 = 1e6;
+
 /// What is wrong with the first path that leaves more than the one before it, which would cut nothing.
 fn idle_path(paths: &[RoughPath], entries: &[Entry]) -> Option<Diagnostic> {
     let mut pairs = paths.windows(2);
@@ -126,7 +129,8 @@ fn idle_path(paths: &[RoughPath], entries: &[Entry]) -> Option<Diagnostic> {
         _ => None,
     })?;
     let entry = entries.iter().find(|entry| entry.key == idle.name)?;
-    let [leaves, left] = [idle, before].map(|path| path.allowance / UM);
+    let in_um = |path: &RoughPath| (path.allowance / UM * DIGITS).round() / DIGITS;
+    let [leaves, left] = [idle, before].map(in_um);
     let title = format!(
         "{} would cut nothing: it leaves {leaves} um, and {} before it only {left} um",
         quoted(&idle.name),

@@ -76,15 +76,16 @@ fn heights_at_rim(surface: &dyn SurfaceModel, rim: f64) -> Result<Vec<f64>, Stra
 
 /// What the heights show of the sense of C.
 fn what_shows(heights: &[f64]) -> &'static str {
-    if heights.iter().any(|height| !height.is_finite()) {
-        return "the part has no height at some angles of the rim: mark it, and look for the mark at 90 deg";
-    }
+    let are_known = heights.iter().all(|height| height.is_finite());
     match telling_angle(heights) {
         Some(_) => {
             "if another place of the part is under the tool at a stop, change c_sign or the zero of C"
         }
+        None if are_known => {
+            "the heights are alike for both senses of C: a mark on the part shows the sense"
+        }
         None => {
-            "the heights are alike for both senses of C: mark the part, and look for the mark at 90 deg"
+            "the part has no height at some angles of the rim: a mark on the part shows the sense of C"
         }
     }
 }
@@ -93,10 +94,10 @@ fn what_shows(heights: &[f64]) -> &'static str {
 /// little.
 fn stops(heights: &[f64]) -> Vec<DryStop> {
     let mut angles: Vec<usize> = (0..TURN_DEG).step_by(QUARTER_DEG).collect();
+    let quarters_show = shows_sense(heights, QUARTER_DEG);
     let at_quarter = rise_over_opposite(heights, QUARTER_DEG).abs();
     let tells_more = |deg: &usize| {
-        let rise = rise_over_opposite(heights, *deg).abs();
-        !shows_sense(heights, QUARTER_DEG) || rise > MUCH_MORE * at_quarter
+        !quarters_show || rise_over_opposite(heights, *deg).abs() > MUCH_MORE * at_quarter
     };
     angles.extend(telling_angle(heights).filter(tells_more));
     angles.sort_unstable();
@@ -193,7 +194,7 @@ mod tests {
         let alike = rim(|angle| 0.01 * Scalar::cos(2.0 * angle));
         assert_eq!(stops(&alike).len(), 4);
         assert!(what_shows(&alike).contains("alike for both senses"));
-        let unknown = rim(|angle| if angle > 6.0 { f64::NAN } else { 0.0 });
+        let unknown = rim(|angle| if angle > 3.2 { f64::NAN } else { 0.0 });
         assert!(what_shows(&unknown).contains("no height"));
     }
 

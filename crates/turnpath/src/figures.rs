@@ -1,8 +1,5 @@
 //! What the meters measured, as parts of a report.
 
-use std::f64::consts::TAU;
-
-use turnpath_core::Scalar;
 use turnpath_pipeline::{FeedCap, Leads};
 use turnpath_recipe::Recipe;
 use turnpath_report as report;
@@ -10,8 +7,7 @@ use turnpath_report::{LimitFigure, PathPlace};
 use turnpath_verify::machined::{FormScope, MachinedFigures, PartPoint, SurfaceExtremes};
 use turnpath_verify::{
     AxesMotion, AxisMotion, CoverageFigures, CuttingSpeed, FollowingError, HighestSpeed,
-    LeadFigures, PathFigures, Peak, PlaybackFigures, ResidualFigures, ServoFigures, UncutHeight,
-    UnreachedFigures,
+    LeadFigures, PathFigures, Peak, ResidualFigures, ServoFigures, UncutHeight, UnreachedFigures,
 };
 
 /// The tolerances that a recipe asks for.
@@ -89,7 +85,11 @@ pub fn path(
     report::PathReport {
         tolerance: tolerances(recipe),
         overrun,
-        interpolation_error: interpolation_error(playback, cut.machined),
+        interpolation_error: report::InterpolationError {
+            max: playback.max(),
+            rms: playback.rms(),
+            at: place(playback.at_c, playback.at_x),
+        },
         control_point_error: report::ControlPointError {
             max: points.max(),
             at: place(points.at_c, points.at_x),
@@ -146,37 +146,6 @@ pub fn path(
         }),
         lead,
         servo: cut.servo.map(servo_report),
-    }
-}
-
-/// A gouge of the machined surface shows an error that lies between the instants of the playback if it is deeper than
-/// the playback's largest error times this, and by this more, mm. Instants of a smooth error miss a thousandth.
-const GOUGE_BEYOND: (f64, f64) = (1.01, 1e-8);
-
-/// The largest interpolation error that was found. Where the nose gouges, its centre lies lower than the first touch by
-/// the depth of the gouge at least. So a gouge that is deeper than the errors of the playback counts instead, with C
-/// within a turn.
-fn interpolation_error(
-    playback: &PlaybackFigures,
-    machined: Option<&MachinedFigures>,
-) -> report::InterpolationError {
-    let (factor, more) = GOUGE_BEYOND;
-    let lowest = machined.map(|machined| &machined.lowest);
-    let gouge = lowest.filter(|lowest| -lowest.error > factor * playback.max() + more);
-    let (max, at) = match gouge {
-        Some(lowest) => {
-            let c = Scalar::atan2(lowest.y, lowest.x).rem_euclid(TAU);
-            (
-                -lowest.error,
-                place(c, (lowest.x * lowest.x + lowest.y * lowest.y).sqrt()),
-            )
-        }
-        None => (playback.max(), place(playback.at_c, playback.at_x)),
-    };
-    report::InterpolationError {
-        max,
-        rms: playback.rms(),
-        at,
     }
 }
 

@@ -214,9 +214,12 @@ impl Job {
         })?;
         let mut result = open_folder(folder, self, dry_run)?;
         // What the run reads stays, though a result before it may list it.
-        let inputs = inputs.iter();
-        let members = inputs.filter_map(|input| ResultFolder::member(folder, input));
-        members.for_each(|name| result.keeps(name));
+        let behind_links = inputs.iter().filter_map(|input| input.canonicalize().ok());
+        for input in behind_links.chain(inputs.iter().cloned()) {
+            if let Some(name) = ResultFolder::member(folder, &input) {
+                result.keeps(name);
+            }
+        }
         let (mut of_rough, mut files) = (Vec::new(), Vec::new());
         for rough in &rough_paths {
             let (report, whole) = rough.run(&result, dry_run, observer)?;

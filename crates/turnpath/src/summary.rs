@@ -55,9 +55,12 @@ impl FolderSummary {
     }
 }
 
-/// The page that turnpath made in a folder; `None` if there is none, or one that is somebody else's.
+/// The page that turnpath made in a folder; `None` if there is none, or one that is somebody else's, or a link.
 pub fn own_page(folder: &Path) -> Result<Option<ListedFile>, FileError> {
     let path = folder.join(PAGE);
+    if path.is_symlink() {
+        return Ok(None);
+    }
     let mut beginning = Vec::new();
     let read =
         File::open(&path).and_then(|file| file.take(PAGE_MARK_BYTES).read_to_end(&mut beginning));

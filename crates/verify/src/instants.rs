@@ -108,7 +108,7 @@ impl InstantBatch {
         self.errors.chunks_exact(self.segments.max(1))
     }
 
-    /// The same, and a chunk for the ends of all segments.
+    /// The errors of all segments at 17 times: a chunk for each instant, and one for the ends.
     pub fn each_time(&self) -> impl Iterator<Item = &[f64]> {
         self.each_instant().chain(self.end_errors.get(1..))
     }
@@ -121,6 +121,14 @@ impl InstantBatch {
     /// Played − true Z at one instant of one segment of the batch, mm.
     pub fn error(&self, segment: usize, instant: usize) -> f64 {
         self.errors[self.place(segment, instant)]
+    }
+
+    /// Played − true Z at one of 17 times of one segment of the batch, mm: the instants, and the end.
+    pub fn error_at(&self, segment: usize, time: usize) -> f64 {
+        match time {
+            INSTANTS => self.end_errors(segment)[1],
+            _ => self.error(segment, time),
+        }
     }
 
     /// The radius of the contact at one instant of one segment of the batch, mm.

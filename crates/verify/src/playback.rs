@@ -89,10 +89,7 @@ impl SegmentPlayback<'_> {
 
 impl SegmentErrors for SegmentPlayback<'_> {
     fn error(&self, instant: usize) -> f64 {
-        match instant {
-            INSTANTS => self.end_errors()[1],
-            _ => self.instants.error(self.index, instant),
-        }
+        self.instants.error_at(self.index, instant)
     }
 
     fn foot(&self, instant: usize) -> f64 {

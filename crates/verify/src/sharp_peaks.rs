@@ -13,8 +13,8 @@ use crate::touch::FirstTouch;
 use crate::worst::Worst;
 
 /// A segment may have a sharp peak if a sixth difference of its errors exceeds this part of the largest one. The top
-/// of a peak with straight flanks lies above its highest instant by a sixth of that difference at the most, and beside
-/// the segment's ends by half of it. The error of a cubic on a smooth path is nearly a quartic, whose sixth
+/// of a peak with straight flanks lies above its highest instant by no more than the largest sixth difference, and far
+/// from the segment's ends by a sixth of it. The error of a cubic on a smooth path is nearly a quartic, whose sixth
 /// differences are zero.
 const SHARP: f64 = 0.02;
 /// Sixth differences below this are rounding or too small to matter, mm: a thousandth of a nanometre.
@@ -66,35 +66,48 @@ pub(crate) fn sharp_peaks(
     Ok(tops.collect())
 }
 
-/// The peaks of a segment that may be higher than the largest error that is known, mm. A flank rises no further than
-/// it has risen from the instant before.
+/// The peaks of a segment that may be higher than the largest error that is known, mm.
 fn peaks_of(
     instants: &InstantBatch,
     segment: usize,
     largest: f64,
 ) -> impl Iterator<Item = Peak> + '_ {
-    let error = move |instant: usize| match instant {
-        INSTANTS => instants.end_errors(segment)[1],
-        _ => instants.error(segment, instant),
-    };
-    (0..=INSTANTS).filter_map(move |instant| {
-        let top = error(instant);
-        let (before, after) = (instant.saturating_sub(1), (instant + 1).min(INSTANTS));
-        let rise = |other: usize| top.abs() - error(other).abs();
-        let (from_before, from_after) = (rise(before), rise(after));
-        let is_top = from_before >= 0.0 && from_after >= 0.0;
-        let may_be_higher = top.abs() + from_before.max(from_after) > largest;
-        let at = |instant: usize| instant as f64 / INSTANTS as f64;
-        (is_top && may_be_higher).then(|| Peak {
+    let times = (0..=INSTANTS).filter(move |time| may_be_higher(instants, segment, *time, largest));
+    times.map(move |time| {
+        let at = |time: usize| time as f64 / INSTANTS as f64;
+        Peak {
             segment,
-            lower: at(before),
-            upper: at(after),
+            lower: at(time.saturating_sub(1)),
+            upper: at((time + 1).min(INSTANTS)),
             top: Worst {
-                error: top,
-                at: at(instant),
+                error: instants.error_at(segment, time),
+                at: at(time),
             },
-        })
+        }
     })
+}
+
+/// Whether the error at one of 17 times is no smaller than at its neighbours, and its peak may be higher than the
+/// largest error that is known. A flank goes on no further than it went in the step before. At the ends of the
+/// segment one flank is not known.
+fn may_be_higher(instants: &InstantBatch, segment: usize, time: usize, largest: f64) -> bool {
+    let top = instants.error_at(segment, time);
+    let beside = [
+        time.checked_sub(1),
+        Some(time + 1).filter(|time| *time <= INSTANTS),
+    ];
+    let beside = beside.map(|time| time.map(|time| instants.error_at(segment, time)));
+    let is_top = beside
+        .iter()
+        .flatten()
+        .all(|error| top.abs() >= error.abs());
+    match beside {
+        [Some(before), Some(after)] => {
+            let rise = (top - before).abs().max((top - after).abs());
+            is_top && top.abs() + rise > largest
+        }
+        _ => is_top,
+    }
 }
 
 impl Peak {

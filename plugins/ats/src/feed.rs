@@ -115,7 +115,7 @@ impl AtsPlan {
             if continuation == Continuation::End {
                 return Ok(law);
             }
-            // The host looks at a law only where it grows from its beginning.
+            // This law reaches the host when it is whole, so the host cannot stop it.
             if law.len() > MOST_PIECES {
                 return Err(StrategyError::failed(format!(
                     "planned from its end, the law has more than {MOST_PIECES} pieces; give a larger \

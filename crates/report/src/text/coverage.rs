@@ -8,7 +8,7 @@ use crate::verdict::within;
 use super::numbers::{against, line, small_length};
 
 /// The verdict where the path does not come to an edge of the part.
-const NOT_REACHED: &str = " not reached             EXCEEDED";
+const NOT_REACHED: &str = " not reached                EXCEEDED";
 
 /// The verdict, where there is one, and each edge where more than the residual stays.
 pub fn coverage(

@@ -28,6 +28,9 @@ pub fn path(path: &PathReport, verdict: &Verdict) -> String {
     text += &spokes(path.spokes.as_ref());
     text += &arms(path);
     text += &real_nose(path.real_nose.as_ref());
+    if let Some(warning) = gouge_warning(path) {
+        text += &line("warning", warning);
+    }
     if let Some(report) = &path.form {
         text += &form(report, verdict.form);
     }
@@ -102,6 +105,27 @@ fn arms(path: &PathReport) -> String {
         let count = arms.per_turn;
         let text = format!("{amplitude:>12} with {count} arms, {pitch} apart, from {from} to {to}");
         line("spiral arms", text)
+    })
+}
+
+/// A gouge that is deeper than the interpolation error times this, and by this more, mm, lies between the instants of
+/// the playback. Beside seams its depth is known to some nanometres.
+const GOUGE_BEYOND: (f64, f64) = (1.5, 10e-6);
+
+/// The warning where the machined surface has a gouge of which the interpolation error knows nothing; `None` where it
+/// has none. A nose that the path takes as a point has a warning of its own.
+pub fn gouge_warning(path: &PathReport) -> Option<String> {
+    let (factor, more) = GOUGE_BEYOND;
+    let lowest = path.surface_error.as_ref()?.lowest;
+    let depth = -lowest.error;
+    let is_unknown = depth > factor * path.interpolation_error.max + more;
+    (is_unknown && path.real_nose.is_none()).then(|| {
+        let [x, y] = [lowest.x, lowest.y].map(|mm| millimetres(mm, 4));
+        format!(
+            "the machined surface lies {} too low at x = {x}, y = {y}, and the interpolation error does not \
+             show it: the steps there are longer than what the part has; give shorter ones",
+            small_length(depth)
+        )
     })
 }
 

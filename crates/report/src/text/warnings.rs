@@ -4,7 +4,7 @@ use crate::run::RunReport;
 
 use super::coverage::axis_crossing_warning;
 use super::lead::lead_warning;
-use super::path::real_nose_warning;
+use super::path::{gouge_warning, real_nose_warning};
 use super::remark::sentence;
 
 /// The warnings and the remarks of a run, as in its [text](super::run). They change no verdict.
@@ -17,7 +17,7 @@ pub fn warnings(report: &RunReport) -> Vec<String> {
     let crossing = axis_crossing_warning(&path.axis_crossing);
     let lead = path.lead.as_ref().and_then(lead_warning);
     let remarks = report.remarks.iter().map(sentence);
-    [nose, crossing, lead]
+    [nose, gouge_warning(path), crossing, lead]
         .into_iter()
         .flatten()
         .chain(remarks)
