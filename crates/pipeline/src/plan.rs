@@ -35,9 +35,10 @@ const NODES_OF_SAMPLED_BLOCK: f64 = 30.0;
 const MOST_HELD: f64 = 2e7;
 /// The memory that a block takes before its nodes are held, in numbers.
 const NUMBERS_OF_BLOCK: f64 = 11.0;
-/// A path of a sequential sampler is refused as too long once this part of what its nodes so far foretell is. The
-/// first revolutions inward have twice as many nodes as the mean one if nodes are evenly spaced.
-const CERTAINLY_FORETOLD: f64 = 4.0;
+/// The nodes of a sequential sampler so far foretell those of the whole path, and what they foretell is divided by
+/// this before it counts. A smaller number would refuse inward paths whose first revolutions have the most nodes: of
+/// evenly spaced ones twice the mean. A larger number would refuse later.
+const CAUTION: f64 = 4.0;
 /// An overlap that is too large for a velocity solver. A spline needs 64 nodes; a solver that needs
 /// thousands is sequential.
 const MOST_OVERLAP: usize = 10_000;
@@ -259,7 +260,7 @@ impl<'a> Plan<'a> {
             // The last block may be a small part of a revolution.
             self.density = self.density.max(own as f64 / (end - start).max(1.0));
             nodes += own;
-            let foretold = (nodes as f64 / end) / CERTAINLY_FORETOLD;
+            let foretold = (nodes as f64 / end) / CAUTION;
             let revolutions = self.law.end();
             let placed = nodes as f64 / revolutions;
             check_points(self.distance(), revolutions, placed.max(foretold))?;

@@ -123,7 +123,7 @@ pub fn gouge_warning(path: &PathReport) -> Option<String> {
         let [x, y] = [lowest.x, lowest.y].map(|mm| millimetres(mm, 4));
         format!(
             "the machined surface lies {} too low at x = {x}, y = {y}, and the interpolation error does not \
-             show it: the steps there are longer than what the part has; give shorter ones",
+             show it: a feature of the part lies between two instants of a segment; give shorter steps",
             small_length(depth)
         )
     })
