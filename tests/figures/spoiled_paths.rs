@@ -291,6 +291,55 @@ fn a_spoiled_word_of_a_program_is_reported() {
     }
 }
 
+/// In such a program a distance that is wrong or lost moves all points behind it.
+#[test]
+fn a_distance_that_is_wrong_or_lost_is_one_row() {
+    let posts = r#"posts = ["pmac-pvt"]"#;
+    assert!(AST_5.contains(posts));
+    let tables = "[output.pmac-pvt]\npositioning = \"incremental\"\n\
+                  [output.automation1-pvt]\npositioning = \"incremental\"\n";
+    let recipe = AST_5.replace(posts, r#"posts = ["pmac-pvt", "automation1-pvt"]"#) + tables;
+    let bench = Bench::with(&recipe);
+    bench.line("run recipe.toml -o out --no-report").ends(0);
+    let told = |name: &str, lines: &[String], kind: &str| {
+        bench.write(name, lines.join("\n") + "\n");
+        let said = bench.line(&format!("verify recipe.toml {name} --format json"));
+        let anomalies = &said.json()["anomalies"];
+        assert_eq!(anomalies["compared_with"], "recipe", "{name}: {said}");
+        assert_eq!(anomalies["count"], 1, "{name}: {said}");
+        assert_eq!(anomalies["places"][0]["kind"], kind, "{name}: {said}");
+        anomalies["places"][0]["point"].as_u64().unwrap()
+    };
+    for (extension, is_move) in [("pmc", "C"), ("ascript", "MovePvt(")] {
+        let name = format!("spoiled.{extension}");
+        let program = bench.read(format!("out/recipe.{extension}"));
+        let clean: Vec<String> = program.lines().map(String::from).collect();
+        let moves: Vec<usize> = (0..clean.len())
+            .filter(|line| clean[*line].starts_with(is_move) && clean[*line].contains('X'))
+            .collect();
+        for point in [300, 3000] {
+            let line = moves[point - 1];
+            let mut wrong = clean.clone();
+            // X goes inward by some tenths of a micrometre.
+            let digit = wrong[line].find("-0.000").unwrap() + "-0.000".len();
+            let other = match &wrong[line][digit..=digit] {
+                "5" => "1",
+                _ => "5",
+            };
+            wrong[line].replace_range(digit..=digit, other);
+            assert_eq!(told(&name, &wrong, "row_differs"), point as u64);
+
+            let mut lost = clean.clone();
+            lost.remove(line);
+            let end = format!("{} points", moves.len());
+            let mut backwards = lost.iter_mut().rev();
+            let mark = backwards.find(|line| line.contains(&end)).unwrap();
+            *mark = mark.replace(&end, &format!("{} points", moves.len() - 1));
+            assert_eq!(told(&name, &lost, "row_lost"), point as u64);
+        }
+    }
+}
+
 /// A move gives its own duration, so the moves after it come earlier.
 #[test]
 fn moves_of_a_program_that_are_lost_or_swapped_exceed_the_tolerance_there() {

@@ -56,6 +56,11 @@ impl SourceFile {
         self.program.map_or(own, |layout| layout.format.shape())
     }
 
+    /// Whether it says how far it is from point to point.
+    pub fn has_distances(&self) -> bool {
+        self.program.is_some_and(|layout| layout.format.incremental)
+    }
+
     /// The last digit of its velocities, mm/s or deg/s; zero if it has all digits of a double.
     pub fn velocity_digit(&self) -> f64 {
         self.program.map_or(0.0, |Layout { format, .. }| {

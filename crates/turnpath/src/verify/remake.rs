@@ -53,16 +53,17 @@ pub fn compare(
 ) -> Result<Comparison, Error> {
     let compared = remake(recipe, catalogue, files).and_then(|job| {
         let job = with_split(job, &file.path, &RemakeObserver(observer))?;
+        let shape = file.shape(job.shape());
+        let comparison = RowComparison::new(touch.clone(), shape, file.half_digits());
         let mut sink = ComparisonSink {
             reader: file.open()?,
             file,
             rows,
             turns: None,
-            comparison: RowComparison::new(
-                touch.clone(),
-                file.shape(job.shape()),
-                file.half_digits(),
-            ),
+            comparison: match file.has_distances() {
+                true => comparison.of_distances(),
+                false => comparison,
+            },
         };
         let made = make_unmeasured(
             &job.chain,

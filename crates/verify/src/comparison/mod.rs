@@ -3,12 +3,14 @@
 //! Both paths are read in order and merged by C, which grows along a path. A row of the file belongs
 //! to the row of the recipe's path whose C is nearest. So a row that is lost or added moves no other
 //! row out of its place. Times are compared from row to row: if the time of one segment is wrong, all
-//! rows after it come late, and only one of them is at fault.
+//! rows after it come late, and only one of them is at fault. So are C, X and Z of a file that says how far it
+//! is from point to point.
 //!
 //! What a row that differs is worth is how far it moves the played path: the largest change of the
 //! height above the first touch between the rows on both sides that have a partner.
 
 mod cell;
+mod distances;
 mod row;
 
 use turnpath_core::toolpath::{ControlPoint, SegmentShape};
@@ -18,6 +20,7 @@ use crate::touch::FirstTouch;
 use crate::worst_first::WorstFirst;
 
 use cell::{Stretch, distance};
+use distances::{Kinship, Neighbourhood, Shift};
 pub use row::{Column, HalfDigits, PathRow};
 
 /// If more than this part of a file's rows are not those of the recipe's path, then the file is
@@ -116,7 +119,9 @@ pub struct RowComparison {
     last: Option<RowPair>,
     lost: Unpaired,
     added: Unpaired,
-    shift: Option<TimeShift>,
+    late: Option<TimeShift>,
+    /// How far the file's next row is moved, if the file says how far it is from point to point.
+    moved: Option<Shift>,
     /// The anomaly of the last pair, whose segment after it is not known yet.
     open: Option<RowAnomaly>,
     wrong: u64,
@@ -137,11 +142,20 @@ impl RowComparison {
             last: None,
             lost: Unpaired::default(),
             added: Unpaired::default(),
-            shift: None,
+            late: None,
+            moved: None,
             open: None,
             wrong: 0,
             found: WorstFirst::default(),
         }
+    }
+
+    /// The comparison with a file that says how far it is from point to point: one wrong number moves all
+    /// rows behind it.
+    #[must_use]
+    pub fn of_distances(self) -> Self {
+        let moved = Some(Shift::default());
+        Self { moved, ..self }
     }
 
     /// Takes the next row of the recipe's path, and as many rows of the file as belong before it.
@@ -230,19 +244,44 @@ impl RowComparison {
                 self.lose_row(&remade);
                 return Ok(());
             };
-            let off = |row: &PathRow| row.point.c - remade.point.c;
-            let is_next_ones = after.is_some_and(|after| 2.0 * off(&file) > off(after));
-            if is_next_ones {
-                self.lose_row(&remade);
-                return Ok(());
+            let by_distances = self.kinship_by_distances(&remade, after);
+            match by_distances.unwrap_or_else(|| self.kinship_by_c(&file, &remade, after)) {
+                Kinship::Added => self.add_row(),
+                Kinship::PartnerOfNext => {
+                    self.lose_row(&remade);
+                    return Ok(());
+                }
+                Kinship::Partner => {
+                    self.ahead.remove(0);
+                    return Ok(self.pair(file, remade)?);
+                }
             }
-            let second_is_nearer = |second: &PathRow| off(second).abs() < off(&file).abs();
-            if self.ahead.get(1).is_some_and(second_is_nearer) {
-                self.add_row();
-                continue;
-            }
-            self.ahead.remove(0);
-            return Ok(self.pair(file, remade)?);
+        }
+    }
+
+    /// What the file's next row is, by the distances around it. Only a file of distances shows it.
+    fn kinship_by_distances(&self, remade: &PathRow, after: Option<&PathRow>) -> Option<Kinship> {
+        let last = self.last.as_ref().filter(|_| self.moved.is_some())?;
+        let around = Neighbourhood {
+            last: [&last.file, &last.remade],
+            file: [self.ahead.first(), self.ahead.get(1)],
+            remade: [Some(remade), after],
+        };
+        around.kinship(&self.digits)
+    }
+
+    /// What the file's next row is, by the nearest C.
+    fn kinship_by_c(&self, file: &PathRow, remade: &PathRow, after: Option<&PathRow>) -> Kinship {
+        let as_meant = |row: &PathRow| self.moved.map_or(*row, |moved| moved.taken_from(row));
+        let off = |row: &PathRow| row.point.c - remade.point.c;
+        let of_file = off(&as_meant(file));
+        let is_nearer = |second: &PathRow| off(&as_meant(second)).abs() < of_file.abs();
+        if after.is_some_and(|after| 2.0 * of_file > off(after)) {
+            Kinship::PartnerOfNext
+        } else if self.ahead.get(1).is_some_and(is_nearer) {
+            Kinship::Added
+        } else {
+            Kinship::Partner
         }
     }
 
@@ -271,13 +310,13 @@ impl RowComparison {
 
     /// The time of a row that follows one without a partner says nothing.
     fn forget_time(&mut self) {
-        if let Some(shift) = &mut self.shift {
+        if let Some(shift) = &mut self.late {
             shift.last = None;
         }
     }
 
     fn pair(&mut self, file: PathRow, remade: PathRow) -> Result<()> {
-        let mut columns = self.digits.differing(&file, &remade);
+        let mut columns = self.differing(&file, &remade);
         if !self.time_is_right(&file, &remade) {
             columns.insert(0, Column::Time);
         }
@@ -308,12 +347,31 @@ impl RowComparison {
         Ok(())
     }
 
+    /// The columns, the time excepted, in which two rows differ. A row of distances differs only where its own
+    /// distance does.
+    fn differing(&mut self, file: &PathRow, remade: &PathRow) -> Vec<Column> {
+        let Some(moved) = &mut self.moved else {
+            return self.digits.differing(file, remade);
+        };
+        let follows_its_partner = self.lost.rows.is_empty() && self.added.rows.is_empty();
+        let here = Shift::between(file, remade, &self.digits);
+        if !follows_its_partner {
+            // Rows that are lost or added have moved it.
+            *moved = here;
+        }
+        let columns = self.digits.differing(&moved.taken_from(file), remade);
+        if !columns.is_empty() {
+            *moved = here;
+        }
+        columns
+    }
+
     /// Whether a row comes as long after the row before it as in the recipe's path.
     fn time_is_right(&mut self, file: &PathRow, remade: &PathRow) -> bool {
         let shift = file.point.t - remade.point.t;
         let at = file.point.t.abs().max(remade.point.t.abs());
-        let Some(known) = &mut self.shift else {
-            self.shift = Some(TimeShift {
+        let Some(known) = &mut self.late else {
+            self.late = Some(TimeShift {
                 right: shift,
                 last: Some(shift),
             });

@@ -11,6 +11,13 @@ pub struct PathRow {
     pub section: Section,
 }
 
+impl PathRow {
+    /// C, X and Z.
+    pub(super) fn place(&self) -> [f64; 3] {
+        [self.point.c, self.point.x, self.point.z]
+    }
+}
+
 /// A column in which rows may differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Column {
@@ -60,6 +67,24 @@ impl HalfDigits {
     /// Whether the shifts of two times are the same; `at` is the larger of the times, s.
     pub fn same_shift(&self, one: f64, other: f64, at: f64) -> bool {
         (one - other).abs() <= 2.0 * (self.time + ROUNDING * at.abs())
+    }
+
+    /// Those of C, X and Z.
+    pub(super) fn of_place(&self) -> [f64; 3] {
+        [self.angle, self.position, self.position]
+    }
+
+    /// Whether the way from one row to the next is the same in a file and in the recipe's path.
+    pub fn same_way(&self, file: [&PathRow; 2], remade: [&PathRow; 2]) -> bool {
+        let half_digits = self.of_place();
+        let [[from, to], [other_from, other_to]] =
+            [file, remade].map(|rows| rows.map(PathRow::place));
+        (0..half_digits.len()).all(|axis| {
+            let ends = [from[axis], to[axis], other_from[axis], other_to[axis]];
+            let largest = ends.into_iter().map(f64::abs).fold(0.0, f64::max);
+            let apart = (to[axis] - from[axis]) - (other_to[axis] - other_from[axis]);
+            apart.abs() <= 2.0 * (half_digits[axis] + ROUNDING * largest)
+        })
     }
 
     /// The columns, the time excepted, in which two rows differ.

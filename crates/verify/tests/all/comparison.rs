@@ -50,7 +50,37 @@ fn compare_within(
     recipe: &[PathRow],
 ) -> (ComparisonFigures, bool) {
     let touch = touch_on(Plane { slope: SLOPE }, 2.5, 0.5, true);
-    let mut comparison = RowComparison::new(touch, SegmentShape::Cubic, digits);
+    let comparison = RowComparison::new(touch, SegmentShape::Cubic, digits);
+    compare_by(comparison, file, recipe)
+}
+
+/// The comparison with a file of distances, whose sums round.
+fn compare_distances(file: &[PathRow], recipe: &[PathRow]) -> (ComparisonFigures, bool) {
+    let digits = HalfDigits {
+        time: 1e-12,
+        position: 1e-12,
+        angle: 1e-12,
+        ..HalfDigits::default()
+    };
+    let touch = touch_on(Plane { slope: SLOPE }, 2.5, 0.5, true);
+    let comparison = RowComparison::new(touch, SegmentShape::Cubic, digits).of_distances();
+    compare_by(comparison, file, recipe)
+}
+
+/// The path of a file of distances whose distance to one row is changed so.
+fn with_distance(row: usize, change: impl Fn(&mut ControlPoint)) -> Vec<PathRow> {
+    let mut file = path(500);
+    file[row..]
+        .iter_mut()
+        .for_each(|row| change(&mut row.point));
+    file
+}
+
+fn compare_by(
+    mut comparison: RowComparison,
+    file: &[PathRow],
+    recipe: &[PathRow],
+) -> (ComparisonFigures, bool) {
     let mut rows = file.iter().copied();
     let mut next = || Ok::<_, StrategyError>(rows.next());
     for row in recipe {
@@ -189,6 +219,92 @@ fn a_move_that_is_lost_with_its_time_is_one_row() {
     let (row, fault, worth) = only(&file, &path(500));
     assert_eq!((row, fault), (101, RowFault::Lost));
     assert!(worth > 10.0, "{worth}");
+}
+
+/// The step of C is 0.05 rad: a wrong distance of many steps leaves each row with its own partner.
+#[test]
+fn one_wrong_distance_is_one_row_though_all_rows_behind_it_are_moved() {
+    let of = |row: usize, column: Column, file: &[PathRow]| {
+        let (figures, other) = compare_distances(file, &path(500));
+        assert_eq!((figures.count, other), (1, false), "{figures:?}");
+        let found = &figures.worst[0];
+        let differs = RowFault::Differs(vec![column]);
+        assert_eq!((found.row, &found.fault), (row as u64 + 1, &differs));
+        1e6 * found.worth
+    };
+    for row in [1, 250, 498, 499] {
+        let file = with_distance(row, |point| point.z += 20e-6);
+        close(of(row, Column::Z, &file), 20.0);
+        let file = with_distance(row, |point| point.x -= 0.3);
+        assert!(of(row, Column::X, &file) > 0.0);
+        for turned in [-0.01, 0.01, 0.3, 7.0] {
+            let file = with_distance(row, |point| point.c += turned);
+            // No row behind the last one shows that the others are its own.
+            if row < 499 || turned < 0.4 * STEP {
+                assert!(of(row, Column::C, &file) > 0.0, "{turned}");
+            }
+        }
+    }
+    // In a file of positions each row behind it is wrong by itself.
+    let file = with_distance(250, |point| point.z += 20e-6);
+    assert_eq!(compare(&file, &path(500)).0.count, 250);
+}
+
+#[test]
+fn two_wrong_distances_are_two_rows_though_the_second_takes_the_first_back() {
+    let mut file = with_distance(100, |point| point.z += 20e-6);
+    file[101..].iter_mut().for_each(|row| row.point.z -= 20e-6);
+    let (figures, _) = compare_distances(&file, &path(500));
+    let mut rows: Vec<u64> = figures.worst.iter().map(|found| found.row).collect();
+    rows.sort_unstable();
+    assert_eq!(rows, [101, 102]);
+}
+
+/// With a line goes its distance, and all behind it is moved back by that.
+#[test]
+fn a_distance_that_is_lost_or_added_is_one_row() {
+    let whole = path(500);
+    let way = |rows: &[PathRow], row: usize| {
+        let [from, to] = [rows[row - 1].point, rows[row].point];
+        [to.t - from.t, to.c - from.c, to.x - from.x, to.z - from.z]
+    };
+    let moved = |rows: &mut [PathRow], [t, c, x, z]: [f64; 4], sign: f64| {
+        for PathRow { point, .. } in rows {
+            point.t += sign * t;
+            point.c += sign * c;
+            point.x += sign * x;
+            point.z += sign * z;
+        }
+    };
+    for row in [1, 250, 498] {
+        let gone = way(&whole, row);
+        let mut file = whole.clone();
+        file.remove(row);
+        moved(&mut file[row..], gone, -1.0);
+        let (figures, other) = compare_distances(&file, &whole);
+        assert_eq!((figures.count, other), (1, false), "{row}: {figures:?}");
+        let found = &figures.worst[0];
+        assert_eq!((found.row, &found.fault), (row as u64 + 1, &RowFault::Lost));
+
+        let mut file = whole.clone();
+        let twice = file[row];
+        file.insert(row, twice);
+        moved(&mut file[row + 1..], gone, 1.0);
+        let (figures, other) = compare_distances(&file, &whole);
+        assert_eq!((figures.count, other), (1, false), "{row}: {figures:?}");
+        let found = &figures.worst[0];
+        assert_eq!(found.fault, RowFault::Added, "{figures:?}");
+        assert!(found.row.abs_diff(row as u64 + 1) <= 1, "{}", found.row);
+    }
+}
+
+#[test]
+fn distances_of_another_path_are_another_makers() {
+    let mut file = path(5000);
+    for (k, row) in file.iter_mut().enumerate() {
+        row.point.z += 1e-6 * (k % 7) as f64;
+    }
+    assert!(compare_distances(&file, &path(5000)).1);
 }
 
 #[test]
