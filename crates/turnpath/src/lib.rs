@@ -50,6 +50,7 @@ mod plugins_lock;
 mod posts;
 mod program;
 mod program_room;
+mod program_size;
 mod recipe_file;
 mod recipe_schema;
 mod region;
