@@ -33,6 +33,11 @@ impl Loop for Angles<'_> {
     }
 }
 
+/// So many angles, evenly over a turn from 0 on, rad.
+pub fn even_angles(count: usize) -> impl Iterator<Item = f64> + Clone {
+    (0..count).map(move |number| TAU * number as f64 / count as f64)
+}
+
 /// An angle without its whole turns, in 0 to 2π: the same double as `c.rem_euclid(TAU)`, without the
 /// division that takes longer the more turns there are.
 pub fn within_turn(c: f64) -> f64 {

@@ -1,8 +1,8 @@
 //! Where the nose makes contact at the ends of the range of ρ.
 
-use std::f64::consts::TAU;
-
-use turnpath_core::{CentreBuffers, Locus, RadialRange, Scalar, StrategyError, Tool, ToolLocus};
+use turnpath_core::{
+    CentreBuffers, Locus, RadialRange, Scalar, StrategyError, Tool, ToolLocus, even_angles,
+};
 
 use crate::{Chain, PipelineError, Result};
 
@@ -19,9 +19,7 @@ pub fn contact_range(
     tool: &Tool,
     range: RadialRange,
 ) -> Result<RadialRange> {
-    let theta: Vec<f64> = (0..RIM_ANGLES)
-        .map(|i| TAU * i as f64 / RIM_ANGLES as f64)
-        .collect();
+    let theta: Vec<f64> = even_angles(RIM_ANGLES).collect();
     let mut contact = RadialRange {
         inner: range.inner.abs(),
         ..range

@@ -1,8 +1,6 @@
 //! How far the part and its overrun leave the data that the surface was made from.
 
-use std::f64::consts::TAU;
-
-use turnpath_core::{RadialRange, Scalar, SurfaceData};
+use turnpath_core::{RadialRange, Scalar, SurfaceData, even_angles};
 
 use crate::contact::contact_range;
 use crate::{Chain, Preparation, Result};
@@ -69,8 +67,7 @@ pub fn data_reach(chain: &Chain, preparation: &Preparation) -> Result<Option<Dat
 
 /// The place on some rings that lies farthest beyond the data, if one does.
 fn farthest(chain: &Chain, rings: impl Iterator<Item = f64>) -> Result<Option<Farthest>> {
-    let turn: Vec<(f64, (f64, f64))> = (0..ANGLES)
-        .map(|i| TAU * i as f64 / ANGLES as f64)
+    let turn: Vec<(f64, (f64, f64))> = even_angles(ANGLES)
         .map(|angle| (angle, Scalar::sin_cos(angle)))
         .collect();
     let mut most: Option<Farthest> = None;

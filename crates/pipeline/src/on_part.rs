@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Part, Scalar, StrategyError};
+use turnpath_core::{Part, Scalar, StrategyError, even_angles};
 
 use crate::{Chain, PipelineError, Result};
 
@@ -31,9 +31,7 @@ impl Places {
     fn on(part: &Part, rings: usize, angles: usize) -> Self {
         let step = (part.aperture_radius - part.inner_radius) / rings as f64;
         let radii = (0..=rings).map(|ring| part.inner_radius + step * ring as f64);
-        let turn: Vec<(f64, f64)> = (0..angles)
-            .map(|i| Scalar::sin_cos(TAU * i as f64 / angles as f64))
-            .collect();
+        let turn: Vec<(f64, f64)> = even_angles(angles).map(Scalar::sin_cos).collect();
         let places =
             radii.flat_map(|radius| turn.iter().map(move |(s, c)| (radius * c, radius * s)));
         let (x, y) = places.unzip();

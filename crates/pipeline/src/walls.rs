@@ -4,9 +4,7 @@
 //! a rest that falls with the cube of the way, and at a crease with the way itself. At a wall the
 //! rest stays, however short the way is: halving a stretch between two points closes in on it.
 
-use std::f64::consts::TAU;
-
-use turnpath_core::{Gradients, Part, Scalar, StrategyError};
+use turnpath_core::{Gradients, Part, Scalar, StrategyError, even_angles};
 
 use crate::{Chain, PipelineError, Result};
 
@@ -59,9 +57,7 @@ pub fn check_walls(chain: &Chain, part: &Part) -> Result<()> {
 /// The stretches along the rings and along the radii whose height grows by more or less than their
 /// slopes say.
 fn stretches(chain: &Chain, part: &Part) -> Result<Vec<[Point; 2]>> {
-    let turned: Vec<(f64, f64)> = (0..ANGLES)
-        .map(|k| Scalar::sin_cos(TAU * k as f64 / ANGLES as f64))
-        .collect();
+    let turned: Vec<(f64, f64)> = even_angles(ANGLES).map(Scalar::sin_cos).collect();
     let width = part.aperture_radius - part.inner_radius;
     let mut found = Vec::new();
     let mut before: Option<Vec<Point>> = None;

@@ -1,9 +1,8 @@
 //! A part without a height somewhere, where a text of the recipe says why.
 
-use std::f64::consts::TAU;
-
 use turnpath_core::{
     GradientSeries, Gradients, Part, Result, Scalar, Series, Slot, SurfaceGap, SurfaceModel,
+    even_angles,
 };
 use turnpath_pipeline::{Link, PipelineError};
 use turnpath_recipe::Recipe;
@@ -55,9 +54,7 @@ pub fn of_preparation(
 /// has no derivatives, and the reason, if the surface knows it.
 fn first_gap(surface: &dyn SurfaceModel, part: &Part) -> Result<Option<([f64; 2], SurfaceGap)>> {
     let width = part.aperture_radius - part.inner_radius;
-    let turned: Vec<(f64, f64)> = (0..ANGLES)
-        .map(|k| Scalar::sin_cos(TAU * k as f64 / ANGLES as f64))
-        .collect();
+    let turned: Vec<(f64, f64)> = even_angles(ANGLES).map(Scalar::sin_cos).collect();
     let rings = (0..=RINGS).map(|ring| {
         let rho = part.inner_radius + width * ring as f64 / RINGS as f64;
         let places = turned.iter().map(|(sin, cos)| [rho * cos, rho * sin]);

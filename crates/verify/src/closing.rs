@@ -10,6 +10,7 @@
 use turnpath_core::Result;
 
 use crate::cusp::Point;
+use crate::lower_arc::below_centre;
 use crate::profiles::Profiles;
 use crate::touch::{ANYWHERE, FirstTouch, Touch};
 
@@ -99,7 +100,7 @@ pub(crate) fn at(touch: &FirstTouch, theta: &[f64], rho: &[f64]) -> Result<Vec<f
     let lowest = lowest(touch, &theta, &radii, between.collect())?;
     let mut heights = profiles.height;
     for (i, (x, touch)) in rides.iter().zip(lowest) {
-        heights[*i] = touch.z - lift(radius, rho[*i] - x);
+        heights[*i] = touch.z - below_centre(radius, rho[*i] - x);
     }
     Ok(heights)
 }
@@ -130,11 +131,6 @@ fn lowest(
     Ok(middle.into_iter().zip(touches).collect())
 }
 
-/// The height of the nose's centre above its lower side at an offset, mm.
-fn lift(radius: f64, offset: f64) -> f64 {
-    (radius * radius - offset * offset).max(0.0).sqrt()
-}
-
 fn middles(between: &[(f64, f64)]) -> Vec<f64> {
     between.iter().map(|(a, b)| 0.5 * (a + b)).collect()
 }
@@ -142,7 +138,7 @@ fn middles(between: &[(f64, f64)]) -> Vec<f64> {
 /// The height of a cusp's tip above the lower side of the nose at X: along the surface's normal at
 /// the contact, along the nose's own normal over a seam.
 fn above_nose(tip: Point, x: f64, touch: &Touch, radius: f64) -> f64 {
-    let lift = lift(radius, tip.x - x);
+    let lift = below_centre(radius, tip.x - x);
     let height = tip.y - (touch.z - lift);
     if (touch.foot - tip.x).abs() <= AT_CONTACT * radius {
         height / (1.0 + touch.slope * touch.slope).sqrt()

@@ -1,5 +1,6 @@
 //! The cusp that two neighbouring passes of a round nose leave between them.
 
+use crate::lower_arc::lower_arc;
 use nalgebra::Vector2;
 
 /// A point in a radial section: (ρ, z), mm.
@@ -33,10 +34,7 @@ pub fn between_edges(first: Point, second: Point, radius: f64, reach: f64) -> Op
         return Some(crossing);
     }
     let x = if crossing.x > lower { lower } else { upper };
-    let under = |centre: Point| {
-        let offset = x - centre.x;
-        centre.y - (radius * radius - offset * offset).max(0.0).sqrt()
-    };
+    let under = |centre: Point| lower_arc(centre, radius, x);
     (upper <= lower).then(|| Point::new(x, under(first).max(under(second))))
 }
 

@@ -24,6 +24,7 @@ mod edge_crossings;
 mod instants;
 mod lead;
 mod limits;
+mod lower_arc;
 pub mod machined;
 mod meter;
 mod next_contacts;

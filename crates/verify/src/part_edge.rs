@@ -27,6 +27,7 @@ use crate::closing;
 use crate::crossings::crossing;
 use crate::cusp::Point;
 use crate::edge_crossings::{EdgeCrossings, PassNumber};
+use crate::lower_arc::lower_arc;
 use crate::profiles::Profiles;
 use crate::residual::{self, Pass, Passes, SECTIONS, angle_of};
 use crate::touch::FirstTouch;
@@ -367,7 +368,7 @@ impl Least {
             let radius = tool.nose_radius;
             let uncut = off.norm() - radius;
             self.nearest = self.nearest.min(uncut.max(0.0));
-            let under = centre.y - (radius * radius - off.x * off.x).max(0.0).sqrt();
+            let under = lower_arc(centre, radius, wanted.point.x);
             self.lowest = self.lowest.min(under);
         }
     }

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use turnpath_core::Result;
 
+use crate::lower_arc::below_centre;
 use crate::order::in_order;
 use crate::profiles::Profiles;
 use crate::touch::{ANYWHERE, FirstTouch, Touch};
@@ -256,7 +257,7 @@ impl Seams<'_> {
     /// The rides on one section.
     fn rides(&self, theta: f64, outer: f64) -> Result<Vec<Ride>> {
         let radius = self.touch.subject().tool.nose_radius;
-        let slope = |offset: f64| offset / (radius * radius - offset * offset).max(0.0).sqrt();
+        let slope = |offset: f64| offset / below_centre(radius, offset);
         let ride = |seam: &Seam| Ride {
             theta,
             x: seam.x,
@@ -411,9 +412,8 @@ impl Seams<'_> {
         let radius = self.touch.subject().tool.nose_radius;
         profiles.at(radii.iter().map(|rho| (0, *rho)))?;
         let over = |(rho, surface): (&f64, &f64)| {
-            let offset = rho - seam.x;
-            let lift = (radius * radius - offset * offset).max(0.0).sqrt();
-            (seam.z - lift - surface).max(0.0)
+            let lower_side = seam.z - below_centre(radius, rho - seam.x);
+            (lower_side - surface).max(0.0)
         };
         Ok(radii.iter().zip(&profiles.height).map(over).collect())
     }

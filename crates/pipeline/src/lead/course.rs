@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{CentreBuffers, Locus};
+use turnpath_core::{CentreBuffers, Locus, even_angles};
 use turnpath_verify::Touch;
 
 use super::join::{Join, LeadKind};
@@ -95,9 +95,7 @@ impl<'a> Course<'a> {
             rest_x: f64::NAN,
             rest_z,
         };
-        let theta: Vec<f64> = (0..ANGLES)
-            .map(|i| TAU * i as f64 / ANGLES as f64)
-            .collect();
+        let theta: Vec<f64> = even_angles(ANGLES).collect();
         let rho = vec![overshoot.rho(phases.descent); ANGLES];
         let around = course.locus_x(&theta, &rho)?;
         course.rest_x = around.iter().sum::<f64>() / ANGLES as f64;

@@ -1,9 +1,7 @@
 //! Z of the nose centre where it stands highest on the whole part.
 
-use std::f64::consts::TAU;
-
 use rayon::prelude::*;
-use turnpath_core::{CentreBuffers, Locus};
+use turnpath_core::{CentreBuffers, Locus, even_angles};
 
 use crate::order::one_at_a_time;
 use crate::plan::Plan;
@@ -18,9 +16,7 @@ const RADII: usize = 256;
 /// part.
 pub fn highest(plan: &Plan<'_>) -> Result<f64> {
     let (inner, outer) = reach(plan)?;
-    let theta: Vec<f64> = (0..ANGLES)
-        .map(|i| TAU * i as f64 / ANGLES as f64)
-        .collect();
+    let theta: Vec<f64> = even_angles(ANGLES).collect();
     let each = one_at_a_time((0..RADII + 1).into_par_iter().map(|i| {
         let x = inner + (outer - inner) * i as f64 / RADII as f64;
         let mut touches = Vec::new();
@@ -37,9 +33,7 @@ pub fn highest(plan: &Plan<'_>) -> Result<f64> {
 /// The smallest and the largest |X| of the path and the part.
 fn reach(plan: &Plan<'_>) -> Result<(f64, f64)> {
     let (task, compensator) = (&plan.preparation.task, &plan.chain.compensator);
-    let theta: Vec<f64> = (0..ANGLES)
-        .map(|i| TAU * i as f64 / ANGLES as f64)
-        .collect();
+    let theta: Vec<f64> = even_angles(ANGLES).collect();
     let (mut inner, mut outer) = (task.part.inner_radius, task.part.aperture_radius);
     for rho in [task.range.inner, task.range.outer] {
         let mut centres = CentreBuffers::default();

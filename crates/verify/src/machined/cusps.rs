@@ -7,10 +7,10 @@
 use turnpath_core::Result;
 use turnpath_core::registers::{Loop, in_widest};
 
-use super::envelope::lower_arc;
 use super::pieces::Pieces;
 use crate::closing::{self, SectionCusp};
 use crate::cusp::Point;
+use crate::lower_arc::lower_arc;
 use crate::residual;
 use crate::touch::FirstTouch;
 

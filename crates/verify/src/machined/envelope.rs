@@ -4,6 +4,7 @@
 use turnpath_core::registers::{Loop, in_widest};
 
 use crate::cusp::{self, Point};
+use crate::lower_arc::lower_arc;
 
 /// A part of the envelope: an interval of the lower arc of one circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,14 +15,6 @@ pub struct Arc {
     pub from: f64,
     /// Right end, mm.
     pub to: f64,
-}
-
-/// The height at `s` of the lower arc of a circle of radius `radius` around `centre`. Beyond the
-/// circle, which only rounding can reach, it is the height of the centre.
-#[inline(always)]
-pub(super) fn lower_arc(centre: Point, radius: f64, s: f64) -> f64 {
-    let off = s - centre.x;
-    centre.y - (radius * radius - off * off).max(0.0).sqrt()
 }
 
 /// The border from which on the second of two circles is the lower one; the first lies to the left.

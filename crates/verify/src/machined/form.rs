@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::{Result, Scalar};
 
-use super::envelope::{Arc, lower_arc, lower_envelope};
+use super::envelope::{Arc, lower_envelope};
 use super::extremes::{LineExtremes, PartPoint, SurfaceExtremes};
 use super::lines::{Line, Lines};
 use super::no_height::no_height;
@@ -24,6 +24,7 @@ use super::pieces::Pieces;
 use super::samples::Samples;
 use super::strip::{EVERYWHERE, Strip, on_part};
 use crate::closing;
+use crate::lower_arc::lower_arc;
 use crate::order::in_order;
 use crate::touch::FirstTouch;
 

@@ -12,11 +12,11 @@ use rayon::prelude::*;
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Gradients, Part, Result, Scalar};
 
-use super::envelope::lower_arc;
 use super::grid::{Grid, GridPoint};
 use super::sections::to_centres;
 use super::turns::Turns;
 use crate::cusp::Point;
+use crate::lower_arc::lower_arc;
 use crate::order::in_order;
 use crate::touch::FirstTouch;
 

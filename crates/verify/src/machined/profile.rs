@@ -3,9 +3,10 @@
 use turnpath_core::toolpath::PathBlock;
 use turnpath_core::{Result, Scalar};
 
-use super::envelope::{lower_arc, lower_envelope};
+use super::envelope::lower_envelope;
 use super::lines::Lines;
 use super::sections::{Fan, SectionPasses};
+use crate::lower_arc::lower_arc;
 use crate::touch::FirstTouch;
 
 /// Points per pass. They show the height of a cusp to within one percent.

@@ -1,0 +1,16 @@
+//! The lower side of the nose: an arc around the nose's centre.
+
+use crate::cusp::Point;
+
+/// How far the nose's lower side lies below its centre, at this distance to the side, mm. Beyond the nose,
+/// which only rounding can reach, it is zero.
+#[inline(always)]
+pub(crate) fn below_centre(radius: f64, offset: f64) -> f64 {
+    (radius * radius - offset * offset).max(0.0).sqrt()
+}
+
+/// The height at `s` of the lower side of a nose around `centre`, mm.
+#[inline(always)]
+pub(crate) fn lower_arc(centre: Point, radius: f64, s: f64) -> f64 {
+    centre.y - below_centre(radius, s - centre.x)
+}
