@@ -80,16 +80,16 @@ pub fn sample_path(
     }
     let are_cut = plan.block() < whole_block;
     let strata = strata(plan.blocks());
-    let refined: Vec<usize> = match refines_whole_path {
-        true => (0..plan.blocks()).collect(),
-        false => strata.iter().map(|stratum| stratum.chosen).collect(),
-    };
-    if !refines_whole_path {
-        plan.repeat(RepeatedBlocks::of(&refined, plan.blocks()))?;
-    }
-    let depths = match options.refine {
-        true => refine(&plan, SAMPLED_BLOCKS, &refined, observer)?,
-        false => Vec::new(),
+    let depths = match refines_whole_path {
+        true => refine(&plan, SAMPLED_BLOCKS, &all_blocks(&plan), observer)?,
+        false => {
+            let chosen: Vec<usize> = strata.iter().map(|stratum| stratum.chosen).collect();
+            plan.repeat(RepeatedBlocks::of(&chosen, plan.blocks()))?;
+            match options.refine {
+                true => refine(&plan, SAMPLED_BLOCKS, &chosen, observer)?,
+                false => Vec::new(),
+            }
+        }
     };
     let leads = options
         .lead
@@ -98,31 +98,53 @@ pub fn sample_path(
             LeadRun::begin(&mut plan, &depths, task)
         })
         .transpose()?;
-    let mut sample = PathSample::default();
-    let block = |stratum: &Stratum| {
-        let block = block(&plan, stratum.chosen, &depths)?;
-        let is_cut = are_cut && plan.repeats_nodes() && !plan.is_last(stratum.chosen);
-        let without_border = match is_cut {
-            true => without_border(&block.points.c, &block.owner),
-            false => 1.0,
-        };
-        Ok(SampledBlock {
-            points: block.points,
-            stands_for: stratum.stands_for(&plan),
-            without_border,
-        })
-    };
-    sample.blocks = one_at_a_time(strata.par_iter().map(block))?;
-    let segments: f64 = sample.blocks.iter().map(SampledBlock::segments).sum();
+    let block = |stratum: &Stratum| sampled_block(&plan, stratum, &depths, are_cut);
+    let blocks = one_at_a_time(strata.par_iter().map(block))?;
+    let segments: f64 = blocks.iter().map(SampledBlock::segments).sum();
     let estimate = Estimate::of(&plan, segments / plan.law.end())?;
-    if let Some((leads, last)) = leads.zip(sample.blocks.last()) {
-        sample.leads.push((Section::LeadIn, leads.lead_in()));
-        if let Some(pair) = last_two(&last.points) {
-            let (points, _) = leads.end(&plan, &pair, AxesMotion::of(&last.points))?;
-            sample.leads.push((Section::LeadOut, points));
-        }
+    let leads = match leads.zip(blocks.last()) {
+        Some((leads, last)) => both_leads(&plan, leads, &last.points)?,
+        None => Vec::new(),
+    };
+    Ok((estimate, PathSample { blocks, leads }))
+}
+
+fn all_blocks(plan: &Plan<'_>) -> Vec<usize> {
+    (0..plan.blocks()).collect()
+}
+
+/// The block that stands for a stratum. `are_cut` says that blocks were made smaller for the sample.
+fn sampled_block(
+    plan: &Plan<'_>,
+    stratum: &Stratum,
+    depths: &[Depths],
+    are_cut: bool,
+) -> Result<SampledBlock> {
+    let block = block(plan, stratum.chosen, depths)?;
+    let is_cut = are_cut && plan.repeats_nodes() && !plan.is_last(stratum.chosen);
+    let without_border = match is_cut {
+        true => without_border(&block.points.c, &block.owner),
+        false => 1.0,
+    };
+    Ok(SampledBlock {
+        points: block.points,
+        stands_for: stratum.stands_for(plan),
+        without_border,
+    })
+}
+
+/// The lead-in, and the lead-out behind the last block of the cut.
+fn both_leads(
+    plan: &Plan<'_>,
+    leads: LeadRun,
+    last: &PathBlock,
+) -> Result<Vec<(Section, PathBlock)>> {
+    let mut both = vec![(Section::LeadIn, leads.lead_in())];
+    if let Some(pair) = last_two(last) {
+        let (points, _) = leads.end(plan, &pair, AxesMotion::of(last))?;
+        both.push((Section::LeadOut, points));
     }
-    Ok((estimate, sample))
+    Ok(both)
 }
 
 /// Neighbouring blocks, and the one that stands for them.
