@@ -192,34 +192,9 @@ impl Job {
         beside: &BesidePath,
         observer: &dyn Observer,
     ) -> Result<RunResult, Error> {
-        let (plots, dry_run) = (&beside.plots, beside.dry_run);
-        plots.need_toolpath(&self.recipe)?;
-        if dry_run && self.programs.is_empty() {
-            return Err(Error::NoProgram);
-        }
-        plots.can_be_in_result(folder)?;
-        beside.drawings.can_be_in_result(folder)?;
+        let dry_run = beside.dry_run;
         let rough_paths = self.rough_jobs()?;
-        can_be_in_result(folder, &rough_paths, dry_run)?;
-        let names = rough_paths.iter().flat_map(|rough| rough.files(dry_run));
-        let names = names.chain(result_files(self, dry_run));
-        let pictures = plots.files().chain(beside.drawings.files());
-        let mut outputs = names
-            .map(|name| folder.join(name))
-            .chain(pictures.map(Path::to_owned));
-        let of_rough = rough_paths.iter().flat_map(RoughJob::inputs);
-        let inputs: Vec<PathBuf> = self.inputs().into_iter().chain(of_rough).collect();
-        outputs.try_for_each(|output| {
-            refuse_as_output(&output, inputs.iter().map(PathBuf::as_path))
-        })?;
-        let mut result = open_folder(folder, self, dry_run)?;
-        // What the run reads stays, though a result before it may list it.
-        let behind_links = inputs.iter().filter_map(|input| input.canonicalize().ok());
-        for input in behind_links.chain(inputs.iter().cloned()) {
-            if let Some(name) = ResultFolder::member(folder, &input) {
-                result.keeps(name);
-            }
-        }
+        let result = self.take_folder(folder, &rough_paths, beside)?;
         let (mut of_rough, mut files) = (Vec::new(), Vec::new());
         for rough in &rough_paths {
             let (report, whole) = rough.run(&result, dry_run, observer)?;
@@ -236,7 +211,7 @@ impl Job {
             outcome,
             split,
         } = path;
-        sink.plot(self, plots, &outcome, observer)?;
+        sink.plot(self, &beside.plots, &outcome, observer)?;
         let reports = sink.read_back(self, &outcome, dry_run, observer)?;
         let report = self.with_recipe(self.report(sink.rows(), &outcome, split, reports)?);
         files.extend(sink.finish()?);
@@ -261,6 +236,43 @@ impl Job {
             files,
             ..RunResult::of(report)
         })
+    }
+
+    /// Takes the folder for a result, once it is sure that no output replaces what the run reads.
+    fn take_folder(
+        &self,
+        folder: &Path,
+        rough_paths: &[RoughJob],
+        beside: &BesidePath,
+    ) -> Result<ResultFolder, Error> {
+        let (plots, dry_run) = (&beside.plots, beside.dry_run);
+        plots.need_toolpath(&self.recipe)?;
+        if dry_run && self.programs.is_empty() {
+            return Err(Error::NoProgram);
+        }
+        plots.can_be_in_result(folder)?;
+        beside.drawings.can_be_in_result(folder)?;
+        can_be_in_result(folder, rough_paths, dry_run)?;
+        let names = rough_paths.iter().flat_map(|rough| rough.files(dry_run));
+        let names = names.chain(result_files(self, dry_run));
+        let pictures = plots.files().chain(beside.drawings.files());
+        let mut outputs = names
+            .map(|name| folder.join(name))
+            .chain(pictures.map(Path::to_owned));
+        let of_rough = rough_paths.iter().flat_map(RoughJob::inputs);
+        let inputs: Vec<PathBuf> = self.inputs().into_iter().chain(of_rough).collect();
+        outputs.try_for_each(|output| {
+            refuse_as_output(&output, inputs.iter().map(PathBuf::as_path))
+        })?;
+        let mut result = open_folder(folder, self, dry_run)?;
+        // What the run reads stays, though a result before it may list it.
+        let behind_links = inputs.iter().filter_map(|input| input.canonicalize().ok());
+        for input in behind_links.chain(inputs.iter().cloned()) {
+            if let Some(name) = ResultFolder::member(folder, &input) {
+                result.keeps(name);
+            }
+        }
+        Ok(result)
     }
 
     /// The page of the run.
