@@ -189,7 +189,7 @@ fn a_side_that_the_design_leaves_open_is_asked_for() {
             air,
             "CURV 0.02 0 0 0 0\n  DISZ -4",
             "2",
-            "does not go with the mirrors",
+            "leaves open which way the light goes",
         ),
     ];
     for (from, to, surface, why) in cases {
@@ -200,6 +200,69 @@ fn a_side_that_the_design_leaves_open_is_asked_for() {
             "{said:?}"
         );
         import(from, to, &format!("--surface {surface} --tool-side plus-z")).ends(0);
+    }
+}
+
+/// The mirror behind the lens, with a break of coordinates before it.
+fn mirror_behind(broken: &str) -> Answer {
+    let design = DESIGN.replace("SURF 4\n", "SURF 5\n");
+    let to = format!("SURF 3\n  TYPE COORDBRK\n{broken}SURF 4\n");
+    let bench = Bench::empty();
+    bench.write("lens.zmx", changed(&design, "SURF 3\n", &to));
+    bench.line("import lens.zmx --surface 4")
+}
+
+#[test]
+fn axes_that_look_the_other_way_leave_the_side_open() {
+    // A fold, and a turn about the axis itself.
+    for broken in [
+        "  PARM 3 45\n",
+        "  PARM 5 180\n  DISZ 0\n",
+        "  PARM 3 180\n  DISZ -30\n",
+    ] {
+        // The half turn is told by the distance behind it.
+        let status = if broken.contains("DISZ -30") { 2 } else { 0 };
+        mirror_behind(broken).ends(status);
+    }
+    for broken in ["  PARM 3 180\n  DISZ 0\n", "  PARM 3 60\n  PARM 4 -60\n"] {
+        let said = mirror_behind(broken).ends(2);
+        assert!(
+            said.stderr.contains("leaves open which way the light goes"),
+            "{said}"
+        );
+    }
+}
+
+/// The last term of the list that design programs print: their manuals give it as this polynomial.
+#[test]
+fn the_37th_fringe_term_is_that_of_the_twelfth_power() {
+    let terms: String = (3..39)
+        .map(|number| format!("  XDAT {number} 0.0 0 0\n"))
+        .collect();
+    let shape = format!("  XDAT 1 37 0 0\n  XDAT 2 6.0 0 0\n{terms}  XDAT 39 0.001 0 0\n");
+    let bench = Bench::empty();
+    let flat = "TYPE EVENASPH\n  CURV -0.01 0 0 0 0\n  PARM 2 1E-6\n";
+    let to = format!("TYPE FZERNSAG\n  CURV 0.0 0 0 0 0\n{shape}");
+    bench.write("lens.zmx", changed(DESIGN, flat, &to));
+    let side = "--surface 2 --tool-side plus-z";
+    bench
+        .line(&format!("import lens.zmx -o recipe.toml {side}"))
+        .ends(0);
+    let said = bench.line("sag recipe.toml --grid 13 -o -").ends(0).stdout;
+    for line in said.lines().skip(1) {
+        let row: Vec<f64> = line
+            .split(',')
+            .map(|number| number.parse().unwrap())
+            .collect();
+        let square = (row[0] * row[0] + row[1] * row[1]) / 36.0;
+        let powers = [1.0, -42.0, 420.0, -1680.0, 3150.0, -2772.0, 924.0];
+        let wanted = powers
+            .iter()
+            .rev()
+            .fold(0.0, |sum, factor| sum * square + factor);
+        if square <= 1.0 {
+            assert!((row[2] - 0.001 * wanted).abs() < HEIGHT, "{line}: {wanted}");
+        }
     }
 }
 

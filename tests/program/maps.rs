@@ -110,7 +110,7 @@ fn points_without_a_height_are_counted() {
     for line in [300, 1, 2] {
         lines[line].push_str(" 1");
     }
-    let bench = bench(&lines.join("\n"));
+    let bench = bench(&(lines.join("\n") + "\n"));
     let all = remarks(&bench, "run recipe.toml -o out");
     let filled = serde_json::json!({ "kind": "filled_points", "filled": 3, "points": 625 });
     assert!(all.contains(&filled), "{all:?}");
@@ -198,7 +198,7 @@ fn a_cutoff_that_does_not_suit_the_map() {
 #[test]
 fn files_that_are_no_map_end_with_status_2_and_the_line() {
     let good = saddle(6.0, 25);
-    let half = good.lines().take(300).collect::<Vec<_>>().join("\n");
+    let half = good.lines().take(300).collect::<Vec<_>>().join("\n") + "\n";
     let cases: [(&str, Vec<u8>, &str); 6] = [
         (
             "short.DAT",

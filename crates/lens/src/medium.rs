@@ -25,11 +25,17 @@ pub fn before(blocks: &[SurfaceBlock<'_>], number: usize) -> Medium {
     Medium::Air
 }
 
+/// Tilts of breaks, taken together, from which on the axes may look the other way, deg.
+const TURNED_ROUND: f64 = 90.0;
+
 /// Whether the light comes to a surface along +z of the design: after every mirror it turns round.
 /// `None` where the distance before the surface says something else, as it does after a break of
-/// coordinates by half a turn.
+/// coordinates by half a turn, or where such a break stands behind that distance.
 pub fn comes_along_z(blocks: &[SurfaceBlock<'_>], number: usize) -> Option<bool> {
     let earlier = blocks.get(..number).unwrap_or_default();
+    if tilt_behind_last_distance(earlier) >= TURNED_ROUND {
+        return None;
+    }
     let is_mirror = |block: &&SurfaceBlock<'_>| !block.is_break() && block.glass() == Some(true);
     let mirrors = earlier.iter().filter(is_mirror).count();
     let along = mirrors.is_multiple_of(2);
@@ -39,4 +45,15 @@ pub fn comes_along_z(blocks: &[SurfaceBlock<'_>], number: usize) -> Option<bool>
         true => Some(along),
         false => None,
     }
+}
+
+/// The tilts about x and y of the breaks of coordinates behind the last distance that is not 0, added up,
+/// deg. The distance of a break lies behind its tilts.
+fn tilt_behind_last_distance(earlier: &[SurfaceBlock<'_>]) -> f64 {
+    let is_distance = |block: &&SurfaceBlock<'_>| block.thickness().is_some_and(|way| way != 0.0);
+    let behind = earlier.iter().rev().take_while(|block| !is_distance(block));
+    let breaks = behind.filter(|block| block.is_break());
+    let numbers = breaks.flat_map(SurfaceBlock::break_numbers);
+    let tilts = numbers.filter(|(name, _)| matches!(*name, "tilt x" | "tilt y"));
+    tilts.map(|(_, tilt)| tilt.abs()).sum()
 }

@@ -37,6 +37,9 @@ const MOST_EXTENDED: u32 = 240;
 const MOST_POLYNOMIAL: u32 = 230;
 const MOST_ZERNIKE: u32 = 231;
 const MOST_FRINGE: u32 = 37;
+/// The last term of the list of design programs is 924ρ¹² − … + 1. By the rule of the terms before it the
+/// list comes to it only here.
+const LAST_FRINGE: u32 = 49;
 
 /// A shape, and where its Zernike terms end.
 #[derive(Debug, Clone, PartialEq)]
@@ -209,7 +212,12 @@ impl Reader<'_, '_> {
             known,
             |_| true,
             |one| {
-                let (normalization_radius, coefficients) = one.list(most)?;
+                let (normalization_radius, mut coefficients) = one.list(most)?;
+                if list == ZernikeList::Fringe
+                    && let Some(last) = coefficients.remove(&MOST_FRINGE)
+                {
+                    coefficients.insert(LAST_FRINGE, last);
+                }
                 Ok(Shape::Zernike {
                     list,
                     base: one.base()?,

@@ -33,7 +33,9 @@ pub fn cut_from(
         (Medium::Air, None) => return undecided("the surface has air on both sides"),
     };
     match comes_along_z(blocks, block.number) {
-        None => undecided("the distance before the surface does not go with the mirrors before it"),
+        None => undecided(
+            "the distance or a break of coordinates before the surface leaves open which way the light goes there",
+        ),
         Some(along) if along == first => Ok((Side::MinusZ, why)),
         Some(_) => Ok((Side::PlusZ, why)),
     }

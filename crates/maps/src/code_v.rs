@@ -11,7 +11,7 @@
 use crate::conventions::Conventions;
 use crate::error::{MapError, MapProblem};
 use crate::map::{Map, Size, turn_rows};
-use crate::text::{count, length, lines, number, shown, text, words};
+use crate::text::{count, length, lines, number, shown, whole_text, words};
 
 /// A wavelength's unit, mm.
 const MICROMETRE: f64 = 1e-3;
@@ -29,7 +29,7 @@ struct Header {
 /// Reads a map.
 pub fn read(bytes: &[u8], conventions: &Conventions) -> Result<Map, MapError> {
     conventions.no_z_unit()?;
-    let text = text(bytes)?;
+    let text = whole_text(bytes)?;
     let is_comment = |(_, line): &(usize, &str)| line.starts_with('!');
     // The title may be empty.
     let mut all = (1..)

@@ -47,6 +47,11 @@ pub enum MapProblem {
     /// A text is no text.
     #[error("this is not a text")]
     NoText,
+    /// The last line has no end.
+    #[error(
+        "the file ends within this line, so digits may be missing: if it is whole, end the line"
+    )]
+    CutOff,
     /// The header does not begin as the format wants it.
     #[error("{0}")]
     Header(Cow<'static, str>),

@@ -18,6 +18,17 @@ pub fn text(bytes: &[u8]) -> Result<&str, MapError> {
     }
 }
 
+/// The text of a whole file: its last line has its end. A copy that stopped half-way ends within a line, whose
+/// last number may lack digits.
+pub fn whole_text(bytes: &[u8]) -> Result<&str, MapError> {
+    let text = text(bytes)?;
+    // Some instruments end a file by this character alone.
+    match text.is_empty() || text.ends_with(['\n', '\r', '#']) {
+        true => Ok(text),
+        false => Err(MapError::at_line(text.lines().count(), MapProblem::CutOff)),
+    }
+}
+
 /// The lines that have something to say, with their numbers from 1. A line that begins with one of
 /// `comments` has nothing to say.
 pub fn lines<'a>(

@@ -8,7 +8,7 @@ use crate::axis::{Axis, UnevenAxis};
 use crate::conventions::Conventions;
 use crate::error::{MapError, MapProblem, Place};
 use crate::map::{Map, Size};
-use crate::text::{length, lines, no_number, number, text};
+use crate::text::{length, lines, no_number, number, whole_text};
 
 const COMMENTS: &[char] = &['#', '!'];
 
@@ -36,7 +36,7 @@ struct Points {
 
 /// Reads a map.
 pub fn read(bytes: &[u8], conventions: &Conventions) -> Result<Map, MapError> {
-    let text = text(bytes)?;
+    let text = whole_text(bytes)?;
     let (xy, unit) = (conventions.xy_unit(None)?, conventions.z_unit(None)?);
     let at = |number: usize, problem| {
         // Only an error needs the line of a point.

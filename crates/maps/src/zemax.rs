@@ -12,7 +12,7 @@
 use crate::conventions::Conventions;
 use crate::error::{MapError, MapProblem, Place};
 use crate::map::{Map, Size, turn_rows};
-use crate::text::{count, length, lines, no_number, number, shown, text, words};
+use crate::text::{count, length, lines, no_number, number, shown, whole_text, words};
 
 /// Least bytes of a point: a digit and the end of its line.
 const LEAST_BYTES: usize = 2;
@@ -30,7 +30,7 @@ struct Header {
 
 /// Reads a map.
 pub fn read(bytes: &[u8], conventions: &Conventions) -> Result<Map, MapError> {
-    let mut lines = lines(text(bytes)?, &['!']);
+    let mut lines = lines(whole_text(bytes)?, &['!']);
     let Some((line, first)) = lines.next() else {
         return Err(MapError::header(1, "the file is empty"));
     };

@@ -18,6 +18,7 @@ pub(crate) const TRAVEL: TravelWords = TravelWords {
     // An exact stop at the end of its block. `G61` is none here: it rounds the corner by polynomials. `G9` ends a
     // block at the speed of the next one.
     allowed: &["G60"],
+    numbers_have_blanks: false,
 };
 /// Words that move nothing and set nothing but what the path sets itself, and the ends of programs.
 const HARMLESS: &[&str] = &[

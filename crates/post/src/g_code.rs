@@ -12,5 +12,5 @@ pub(crate) use commands::{commands, ends_program};
 pub(crate) use groups::Groups;
 pub(crate) use read::read_travel;
 pub(crate) use travel_words::{TravelWords, read_spaced_travel};
-pub(crate) use words::{split_comment, without_comments};
+pub(crate) use words::{refuse_broken_numbers, split_comment, without_comments};
 pub(crate) use write::push_travel;

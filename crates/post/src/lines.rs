@@ -91,6 +91,33 @@ impl<R: Read> LineReader<R> {
     }
 }
 
+/// Refuses what some controllers take for the end of a line or of a program, and others for a blank: control
+/// characters other than tabs and the end of the line itself. A comment could hide a move behind one.
+pub(crate) fn refuse_control_characters(line: &[u8]) -> Result<(), String> {
+    let text = line.strip_suffix(b"\n").unwrap_or(line);
+    let text = text.strip_suffix(b"\r").unwrap_or(text);
+    let is_control = |byte: &&u8| byte.is_ascii_control() && **byte != b'\t';
+    match text.iter().find(is_control) {
+        None => Ok(()),
+        Some(byte) => Err(format!(
+            "the control character 0x{byte:02X} stands within this line: a controller may end the line there"
+        )),
+    }
+}
+
+/// Refuses blanks in code that are none to a controller, such as a no-break space.
+pub(crate) fn refuse_other_blanks(code: &str) -> Result<(), String> {
+    let is_other = |c: &char| !c.is_ascii() && (c.is_whitespace() || c.is_control());
+    match code.chars().find(is_other) {
+        _ if code.is_ascii() => Ok(()),
+        None => Ok(()),
+        Some(c) => Err(format!(
+            "the character U+{:04X} stands between the words of this line: no controller takes it for a blank",
+            u32::from(c)
+        )),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,6 +149,38 @@ mod tests {
                 lines.take_back(buffer);
             }
             assert!(lines.next_line(BUFFER).unwrap().is_none());
+        }
+    }
+
+    #[test]
+    fn only_tabs_and_line_ends_are_taken_of_the_control_characters() {
+        for line in ["X1\tZ2\r\n", "X1\n", "X1\r", "; \u{e4}\n", ""] {
+            assert_eq!(
+                refuse_control_characters(line.as_bytes()),
+                Ok(()),
+                "{line:?}"
+            );
+        }
+        for line in [
+            "X1 ; ok\rZ-5\r\n",
+            "X1\r\r\n",
+            "X1\x0cZ2\n",
+            "X1\x0b\n",
+            "X1\x1a",
+        ] {
+            assert!(
+                refuse_control_characters(line.as_bytes()).is_err(),
+                "{line:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn blanks_beyond_ascii_are_refused() {
+        assert_eq!(refuse_other_blanks("X1 Z2\t"), Ok(()));
+        for blank in ['\u{a0}', '\u{85}', '\u{2028}', '\u{3000}'] {
+            let refused = refuse_other_blanks(&format!("X1{blank}Z2"));
+            assert!(refused.unwrap_err().contains("U+"));
         }
     }
 

@@ -249,7 +249,9 @@ pub(crate) fn commands_of(
     is_harmless: impl Fn(&str) -> bool,
 ) -> Vec<Command> {
     let lines = template.lines().zip(1..);
-    let commands = lines.filter_map(|(line_text, line)| {
+    // A controller may end a line at a carriage return, and a comment with it.
+    let pieces = lines.flat_map(|(text, line)| text.split('\r').map(move |piece| (piece, line)));
+    let commands = pieces.filter_map(|(line_text, line)| {
         let code = code_before_comment(line_text, comments).trim();
         (!code.is_empty()).then(|| Command {
             line,

@@ -12,7 +12,7 @@ use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 use crate::compression::{Compression, text_name};
 use crate::depth_check::DepthCheck;
 use crate::forward_rates::ForwardRates;
-use crate::lines::LineReader;
+use crate::lines::{LineReader, refuse_control_characters, refuse_other_blanks};
 use crate::part_calls::{OpenPart, PartCalls};
 use crate::part_name::PartName;
 use crate::path_reader::{ReadCount, ReadPath};
@@ -167,6 +167,7 @@ impl<R: Read> ProgramReader<R> {
     }
 
     fn pass_header_line(&mut self, line: &[u8]) -> Result<(), String> {
+        refuse_control_characters(line)?;
         let (_, comment) = self.grammar.split_comment(line);
         let is_mark = comment.map_or(Ok(false), |comment| self.read_comment(comment));
         if is_mark? {
@@ -290,6 +291,7 @@ impl<R: Read> ProgramReader<R> {
     /// Reads a line of the path.
     fn read_code(&mut self, code: &[u8]) -> Result<(), String> {
         let code = std::str::from_utf8(code).map_err(|_| "this is not text".to_owned())?;
+        refuse_other_blanks(code)?;
         if matches!(self.place, Place::Depths | Place::EndOfDepths) {
             return self.depths.read(code.trim());
         }
@@ -361,6 +363,7 @@ impl<R: Read> ProgramReader<R> {
 
     /// Reads a line; gives the file of the part that it calls, if it calls one.
     fn read_line(&mut self, line: &[u8]) -> Result<Option<String>, String> {
+        refuse_control_characters(line)?;
         let (code, comment) = self.grammar.split_comment(line);
         if let Some(comment) = comment
             && self.read_comment(comment)?

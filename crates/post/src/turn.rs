@@ -3,8 +3,7 @@
 use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Section};
 
-/// Most degrees that C may turn between two points of the cutting section: with more, points are
-/// missing.
+/// Most degrees that C may turn between two points: with more, points are missing.
 const LARGEST_TURN_DEG: f64 = 360.0;
 /// A turn that is surely no more than that, rad: nearly all turns are below it, and need no division.
 const SMALL_TURN: f64 = 6.0;
@@ -12,8 +11,8 @@ const SMALL_TURN: f64 = 6.0;
 /// With a far larger C, a double could no longer distinguish parts of a turn.
 const LARGEST_C_DEG: f64 = 1e12;
 
-/// Checks C. It must be an angle that a double can distinguish from neighbouring angles. In the
-/// cutting section it must grow, and by no more than it can if no point is missing.
+/// Checks C. It must be an angle that a double can distinguish from neighbouring angles. It must grow, and by
+/// no more than it can if no point is missing. Only in a lead, near rest, may it stand still.
 pub(crate) fn check_turn(
     last: Option<&(ControlPoint, Section)>,
     point: &ControlPoint,
@@ -21,11 +20,16 @@ pub(crate) fn check_turn(
 ) -> Result<(), String> {
     let turn = last.map(|(last, _)| point.c - last.c);
     let is_small = |turn: &f64| 0.0 < *turn && *turn < SMALL_TURN;
-    let turn = turn.filter(|turn| section == Section::Cutting && !is_small(turn));
-    let grows = |turn: f64| turn > 0.0 && turn <= LARGEST_TURN_DEG;
-    if let Some(turn) = turn.map(|turn| turn / DEG).filter(|turn| !grows(*turn)) {
+    let may_stand = section != Section::Cutting;
+    let grows = |turn: f64| (turn > 0.0 || may_stand && turn == 0.0) && turn <= LARGEST_TURN_DEG;
+    let turn = turn.filter(|turn| !is_small(turn)).map(|turn| turn / DEG);
+    if let Some(turn) = turn.filter(|turn| !grows(*turn)) {
+        let must = match may_stand {
+            true => "it must not turn back, and grow by at most 360 deg",
+            false => "it must grow, by at most 360 deg",
+        };
         return Err(format!(
-            "C turns by {turn:?} deg from the previous point; it must grow, by at most 360 deg"
+            "C turns by {turn:?} deg from the previous point; {must}"
         ));
     }
     // No division where C is far below.
@@ -36,4 +40,35 @@ pub(crate) fn check_turn(
         ));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether C may turn so far from one point of a section to the next.
+    fn may_turn(deg: f64, section: Section) -> bool {
+        let at = |c: f64| ControlPoint {
+            c: c * DEG,
+            ..ControlPoint::default()
+        };
+        let last = (at(1000.0), section);
+        check_turn(Some(&last), &at(1000.0 + deg), section).is_ok()
+    }
+
+    #[test]
+    fn c_grows_by_a_turn_at_most_in_the_cut_and_in_leads() {
+        for section in [Section::LeadIn, Section::Cutting, Section::LeadOut] {
+            for deg in [1e-7, 5.0, 359.9] {
+                assert!(may_turn(deg, section), "{section:?}: {deg}");
+            }
+            for deg in [-1e7, -5.0, 360.1, 5.6e9] {
+                assert!(!may_turn(deg, section), "{section:?}: {deg}");
+            }
+        }
+        // Near rest a lead's C may keep its last digit.
+        let may_stand = |section| may_turn(0.0, section);
+        assert!(may_stand(Section::LeadIn) && may_stand(Section::LeadOut));
+        assert!(!may_stand(Section::Cutting));
+    }
 }

@@ -32,7 +32,37 @@ fn sag(header: &str, point: &str, count: usize) -> Vec<u8> {
         text.push_str("0.5 0 0 0 0\n");
     }
     text.push_str(point);
+    text.push('\n');
     text.into_bytes()
+}
+
+/// A copy that stopped within its last number: `5e-2` has become `5`.
+#[test]
+fn texts_that_end_within_a_line() {
+    let says = |name: &str, text: &str, conventions: &Conventions, line: usize| {
+        assert!(
+            read(name, format!("{text}\n").as_bytes(), conventions).is_ok(),
+            "{name}"
+        );
+        let wanted = format!("line {line}: the file ends within this line");
+        says(name, text.as_bytes(), conventions, &wanted);
+    };
+    let own = Conventions::default();
+    let zemax = format!("6 6 1 1 0 0 0\n{}5", "0.5 0 0 0 0\n".repeat(35));
+    says("a.DAT", &zemax, &own, 37);
+    let points = (0..36).map(|k| format!("{} {} 0.5", k % 6, k / 6));
+    let xyz = points.collect::<Vec<_>>().join("\n");
+    says("a.xyz", &xyz, &MM, 36);
+    let given = Conventions {
+        pitch_x: Some(1.0),
+        pitch_y: Some(1.0),
+        ..own
+    };
+    let int = format!(
+        "t\nGRD 6 6 SUR WVL 1 SSZ 1 NDA -9999\n{}5",
+        "12 ".repeat(35)
+    );
+    says("a.int", &int, &given, 3);
 }
 
 #[test]
@@ -122,7 +152,7 @@ fn code_v() {
         ..Conventions::default()
     };
     let file = |header: &str, numbers: usize| {
-        format!("! by hand\ntitle\n{header}\n{}", "12 ".repeat(numbers)).into_bytes()
+        format!("! by hand\ntitle\n{header}\n{}\n", "12 ".repeat(numbers)).into_bytes()
     };
     const HEADER: &str = "GRD 6 6 SUR WVL 0.6328 SSZ 32767 NDA -9999";
     let says = |bytes: &[u8], wanted: &str| says("a.int", bytes, &given, wanted);
@@ -366,7 +396,7 @@ fn lengths_that_no_part_has() {
     let own = Conventions::default();
     let zemax = |header: &str, point: &str| {
         let mut file = self::sag(header, "1", 20);
-        file.extend(format!("\n{point}\n").bytes());
+        file.extend(format!("{point}\n").bytes());
         file.extend("0 0 0 0 0\n".repeat(15).bytes());
         file
     };

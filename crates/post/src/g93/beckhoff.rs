@@ -83,6 +83,7 @@ const WORDS: Words = Words {
     needed: &["G40", "G52", "G71", "G90", "G93", "G359"],
     allowed: &[],
     dwells: false,
+    numbers_have_blanks: false,
 };
 
 impl Dialect for Beckhoff {

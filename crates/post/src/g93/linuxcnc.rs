@@ -76,6 +76,7 @@ const WORDS: Words = Words {
     needed: &["G8", "G21", "G40", "G64", "G90", "G93"],
     allowed: &[],
     dwells: true,
+    numbers_have_blanks: true,
 };
 
 /// Numbers are mm, X is a radius, no tool is compensated, and each line ends at rest: `G64` would round the
@@ -84,6 +85,7 @@ const TRAVEL: TravelWords = TravelWords {
     text: " G8 G21 G40 G61",
     needed: &["G90", "G94", "G8", "G21", "G40", "G61"],
     allowed: &[],
+    numbers_have_blanks: true,
 };
 
 impl Dialect for LinuxCnc {

@@ -84,6 +84,7 @@ const WORDS: Words = Words {
     needed: &["G90", "G93"],
     allowed: &["G18", "G40", "G63", "G71"],
     dwells: false,
+    numbers_have_blanks: false,
 };
 
 impl Dialect for Nanotech {

@@ -8,7 +8,7 @@ use turnpath_core::toolpath::ControlPoint;
 
 use crate::axes::{Axes, AxisWords, NAMES, steps_of};
 use crate::fixed_point::{ONE, number};
-use crate::g_code::{Groups, split_comment, without_comments};
+use crate::g_code::{Groups, refuse_broken_numbers, split_comment, without_comments};
 use crate::post::Grammar;
 use crate::program_format::{FeedMeaning, ProgramFormat, Slowest};
 
@@ -28,6 +28,8 @@ pub(super) struct Words {
     pub(super) allowed: &'static [&'static str],
     /// Whether `G4 P…` waits so many seconds.
     pub(super) dwells: bool,
+    /// Whether blanks may stand within numbers.
+    pub(super) numbers_have_blanks: bool,
 }
 
 /// The lines of a program, in their order.
@@ -187,6 +189,9 @@ impl Grammar for LineGrammar {
     }
 
     fn read(&mut self, code: &str, points: &mut Vec<ControlPoint>) -> Result<(), String> {
+        if !self.words.numbers_have_blanks {
+            refuse_broken_numbers(code)?;
+        }
         let code = without_comments(code)?;
         let mut line = Line::default();
         let mut rest = code.as_str();

@@ -31,6 +31,9 @@ pub(crate) fn read_travel(
             refuse_twice("F", speed.replace(feed).is_some())?;
             continue;
         }
+        if is_line_number(word) {
+            continue;
+        }
         let word = numbered(word);
         if let Some(Ok(number)) = word.strip_prefix('G').map(str::parse) {
             groups.take(number)?;
@@ -57,6 +60,12 @@ pub(crate) fn read_travel(
         modes.need(needed)?;
     }
     Ok(places)
+}
+
+/// Whether a word is the number of its line, which does nothing.
+fn is_line_number(word: &str) -> bool {
+    let digits = word.strip_prefix('N').unwrap_or_default();
+    !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 fn refuse_twice(name: &str, twice: bool) -> Result<(), String> {

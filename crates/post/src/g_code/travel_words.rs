@@ -1,7 +1,7 @@
 //! The moves before and after a path on controllers that must be told more than `G90` and `G94` first: a
 //! program begins with what the last one left.
 
-use super::words::spaced;
+use super::words::{refuse_broken_numbers, spaced};
 use super::{read, write};
 use crate::program_format::ProgramFormat;
 use crate::travel::{Places, Travel, TravelModes};
@@ -17,6 +17,8 @@ pub(crate) struct TravelWords {
     pub(crate) needed: &'static [&'static str],
     /// Other words of exact stops, by the controller's manual.
     pub(crate) allowed: &'static [&'static str],
+    /// Whether blanks may stand within numbers.
+    pub(crate) numbers_have_blanks: bool,
 }
 
 impl TravelWords {
@@ -27,12 +29,16 @@ impl TravelWords {
 
     /// Reads a line.
     pub(crate) fn read(&self, code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+        if !self.numbers_have_blanks {
+            refuse_broken_numbers(code)?;
+        }
         read::read_travel(&spaced(code)?, (self.needed, self.allowed), modes)
     }
 }
 
 /// Reads a line of a controller that has no such words, or of which they are not known.
 pub(crate) fn read_spaced_travel(code: &str, modes: &mut TravelModes) -> Result<Places, String> {
+    refuse_broken_numbers(code)?;
     read::read_travel(&spaced(code)?, (NEEDED, &[]), modes)
 }
 
@@ -49,6 +55,11 @@ mod tests {
             let places = read_spaced_travel(code, &mut modes).unwrap();
             assert_eq!(places, [None, None, Some(ONE * 13 / 2)], "{code}");
         }
-        assert!(read_spaced_travel("G0 (up Z6.5", &mut TravelModes::default()).is_err());
+        for code in ["G0 (up Z6.5", "G0 Z6 .5", "G0 Z6.0 5", "G0 Z6. (up) 5"] {
+            assert!(
+                read_spaced_travel(code, &mut TravelModes::default()).is_err(),
+                "{code}"
+            );
+        }
     }
 }

@@ -20,6 +20,28 @@ pub(crate) fn without_comments(code: &str) -> Result<String, String> {
     }
 }
 
+/// Refuses a blank within a number, where a controller ends the number at a blank.
+pub(crate) fn refuse_broken_numbers(code: &str) -> Result<(), String> {
+    let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
+    let (mut last, mut inside, mut is_apart) = (' ', false, false);
+    for c in code.chars() {
+        match c {
+            '(' => inside = true,
+            ')' => inside = false,
+            _ if inside => {}
+            c if c.is_ascii_whitespace() => is_apart = true,
+            '0'..='9' | '.' if is_apart && is_of_number(last) => {
+                return Err(
+                    "a blank stands within a number: this controller ends the number there"
+                        .to_owned(),
+                );
+            }
+            c => (last, is_apart) = (c, false),
+        }
+    }
+    Ok(())
+}
+
 /// A word without the zeros before its number: `G00` is `G0`.
 pub(super) fn numbered(word: &str) -> String {
     let (letter, number) = word.split_at_checked(1).unwrap_or((word, ""));

@@ -9,11 +9,48 @@ const FIRST_OF_CODES: u32 = 1000;
 /// The commands of a template, line by line. Comments and empty lines are none.
 ///
 /// These words are harmless: `OPEN PROG` with a number below 1000, `CLEAR` and `CLOSE`, which
-/// say where the program goes; `ABS` and `INC`, which say what numbers mean; labels; `DWELL` and
+/// say where the program goes, unless `appends` says that a program without `CLEAR` behind it is added to the one
+/// before; `ABS` and `INC`, which say what numbers mean; labels; `DWELL` and
 /// `DELAY` with a number, which wait; `RETURN` and `STOP`, which end. Any other word may move an axis,
 /// set a variable, or start what does.
-pub(crate) fn commands(template: &str) -> Vec<Command> {
-    commands_of(template, &[";", "//"], is_harmless)
+pub(crate) fn commands(template: &str, appends: bool) -> Vec<Command> {
+    let mut commands = commands_of(template, &[";", "//"], is_harmless);
+    if appends {
+        let clears: Vec<bool> = commands
+            .iter()
+            .map(|one| begins_with_clear(&one.text))
+            .collect();
+        let next_clears = clears.into_iter().skip(1).chain([false]);
+        for (command, next_clears) in commands.iter_mut().zip(next_clears) {
+            command.harmless &= next_clears || !ends_with_open(&command.text);
+        }
+    }
+    commands
+}
+
+/// The words and numbers of a command.
+fn words(command: &str) -> Vec<String> {
+    let code = command.to_uppercase();
+    let words = code.split(|c: char| !c.is_ascii_alphanumeric());
+    words
+        .filter(|word| !word.is_empty())
+        .map(str::to_owned)
+        .collect()
+}
+
+fn is_clear(word: &str) -> bool {
+    matches!(word, "CLEAR" | "CLR")
+}
+
+fn begins_with_clear(command: &str) -> bool {
+    words(command).first().is_some_and(|word| is_clear(word))
+}
+
+/// Whether a command opens a program and does not empty it.
+fn ends_with_open(command: &str) -> bool {
+    let words = words(command);
+    let opens = words.iter().rposition(|word| word.starts_with("OPEN"));
+    opens.is_some_and(|at| !words[at..].iter().any(|word| is_clear(word)))
 }
 
 /// Whether a command ends the program in which it stands, or halts it.
@@ -27,7 +64,7 @@ pub(crate) fn ends_program(command: &str) -> bool {
 /// alone opens and closes nothing.
 pub(crate) fn leaves_program_open(header: &str) -> bool {
     let mut open = false;
-    for command in commands(header) {
+    for command in commands(header, false) {
         let code = command.text.to_uppercase();
         for word in code.split(|c: char| !c.is_ascii_alphabetic()) {
             match word {
@@ -100,7 +137,7 @@ mod tests {
     use crate::pmac::PMAC_PVT;
 
     fn all_harmless(text: &str) -> bool {
-        commands(text).iter().all(|command| command.harmless)
+        commands(text, true).iter().all(|command| command.harmless)
     }
 
     #[test]
@@ -115,6 +152,21 @@ mod tests {
         ] {
             assert!(all_harmless(text), "{text}");
         }
+    }
+
+    /// Turbo PMAC adds to a program that is not emptied; Power PMAC empties it.
+    #[test]
+    fn a_program_that_is_opened_and_not_emptied_needs_trust() {
+        for text in [
+            "OPEN PROG 1\n",
+            "CLOSE\nOPEN PROG 1\nABS\n",
+            "OPEN PROG 1 ABS",
+        ] {
+            assert!(!all_harmless(text), "{text}");
+            let of_power = commands(text, false);
+            assert!(of_power.iter().all(|command| command.harmless), "{text}");
+        }
+        assert!(all_harmless("OPEN PROG 1\nCLEAR\n"));
     }
 
     #[test]
@@ -160,7 +212,7 @@ mod tests {
 
     #[test]
     fn a_command_is_told_with_its_line_and_without_its_comment() {
-        let found = commands("; {name}\n\n  M1=1 ; coolant\nCLOSE\n");
+        let found = commands("; {name}\n\n  M1=1 ; coolant\nCLOSE\n", true);
         let command = |line, text: &str, harmless| Command {
             line,
             text: text.to_owned(),

@@ -258,7 +258,7 @@ impl Dialect for Pvt {
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
-        commands(template)
+        commands(template, matches!(self.dialect, PmacDialect::Turbo))
     }
 
     fn leaves_program_open(&self, header: &str) -> bool {

@@ -276,10 +276,11 @@ impl RowComparison {
         let off = |row: &PathRow| row.point.c - remade.point.c;
         let of_file = off(&as_meant(file));
         let is_nearer = |second: &PathRow| off(&as_meant(second)).abs() < of_file.abs();
-        if after.is_some_and(|after| 2.0 * of_file > off(after)) {
-            Kinship::PartnerOfNext
-        } else if self.ahead.get(1).is_some_and(is_nearer) {
+        // A row of a wild C comes before one whose C is right: it is the wild one that has no partner.
+        if self.ahead.get(1).is_some_and(is_nearer) {
             Kinship::Added
+        } else if after.is_some_and(|after| 2.0 * of_file > off(after)) {
+            Kinship::PartnerOfNext
         } else {
             Kinship::Partner
         }

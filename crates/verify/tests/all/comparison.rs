@@ -173,6 +173,23 @@ fn a_row_that_is_lost_or_added_moves_no_other_out_of_its_place() {
     }
 }
 
+/// The row is no other's partner, and its own is left without one. All rows behind it keep theirs.
+#[test]
+fn a_wild_c_moves_no_other_row_out_of_its_place() {
+    for wild in [-1e7, 0.4, 7.0, 1e7] {
+        let mut file = path(500);
+        file[250].point.c += wild;
+        let (figures, other) = compare(&file, &path(500));
+        let mut rows: Vec<u64> = figures.worst.iter().map(|found| found.row).collect();
+        rows.sort_unstable();
+        assert!(
+            !other && rows.iter().all(|row| (251..=252).contains(row)),
+            "{figures:?}"
+        );
+        assert!((1..=2).contains(&figures.count), "{figures:?}");
+    }
+}
+
 #[test]
 fn rows_that_are_lost_at_an_end_are_counted_there_and_have_no_worth() {
     let whole = path(500);
