@@ -178,6 +178,41 @@ def test_an_interrupt_ends_a_run_and_leaves_no_result(part, tmp_path):
     assert not (tmp_path / "out" / "summary.json").exists()
 
 
+@pytest.mark.parametrize("body", ["while True:\n        pass", "time.sleep(0.3)"])
+def test_an_interrupt_within_a_strategy_ends_the_run_and_frees_its_folder(part, tmp_path, body):
+    program = f"""
+import os, signal, threading, time
+import numpy as np
+import turnpath
+
+@turnpath.sampler
+def patient(path, block):
+    waiting.set()
+    {body}
+    return np.concatenate([turnpath.subdivide(a, b, 400) for a, b in block.turns()])
+
+def interrupt():
+    waiting.wait()
+    time.sleep(0.2)
+    os.kill(os.getpid(), signal.SIGINT)
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+waiting = threading.Event()
+threading.Thread(target=interrupt, daemon=True).start()
+part["sampler"] = {{"use": "patient"}}
+try:
+    turnpath.run(part, folder="out", strategies=[patient])
+except KeyboardInterrupt:
+    print("interrupted", os.path.exists("out/.turnpath"), threading.active_count())
+part["sampler"] = {{"use": "equal-angle", "step": "6 deg"}}
+turnpath.run(part, folder="out")
+print(os.path.exists("out/summary.json"))
+"""
+    # The thread that interrupts may still be ending.
+    said = in_a_child(program, part, tmp_path).split()
+    assert said[:2] == ["interrupted", "False"] and said[2] in "12" and said[3] == "True"
+
+
 def test_an_ablation_gives_rows_and_keeps_records(part, tmp_path):
     steps = [{"use": "equal-angle", "step": step} for step in ("6 deg", "3 deg")]
     rows = turnpath.ablate(part, {"sampler": steps}, folder=tmp_path)

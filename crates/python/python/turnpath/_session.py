@@ -142,12 +142,13 @@ class Session:
             )
         _refuse_more()
         done: dict[str, Any] = {}
+        ended = threading.Event()
         thread = threading.Thread(
-            target=self._body, args=(command, done), name="turnpath", daemon=True
+            target=self._body, args=(command, done, ended), name="turnpath", daemon=True
         )
         thread.start()
-        stop, late = self._wait(thread, progress)
-        if thread.is_alive():
+        stop, late = self._wait(ended, progress)
+        if not ended.is_set():
             self.control.cancel()
             with _shared:
                 _left.append(thread)
@@ -159,7 +160,9 @@ class Session:
         return done["answer"]
 
     @staticmethod
-    def _body(command: Callable[[], Any], done: dict[str, Any]) -> None:
+    def _body(
+        command: Callable[[], Any], done: dict[str, Any], ended: threading.Event
+    ) -> None:
         _count_active(1)
         try:
             done["answer"] = command()
@@ -167,17 +170,21 @@ class Session:
             done["error"] = error
         finally:
             _count_active(-1)
+            ended.set()
 
     def _wait(
-        self, thread: threading.Thread, progress: Callable[[str, int, int], Any] | None
+        self, ended: threading.Event, progress: Callable[[str, int, int], Any] | None
     ) -> tuple[BaseException | None, list[_Call]]:
         """Waits until the work has ended, or a strategy does not hear. Gives what stopped it from here,
-        and the calls that do not hear; a second Ctrl-C waits no longer."""
+        and the calls that do not hear; a second Ctrl-C waits no longer.
+
+        The thread itself is not asked: up to Python 3.12 a Ctrl-C during `Thread.join` makes a thread that
+        goes on say that it has ended."""
         stop: BaseException | None = None
         told: tuple[str, int, int] | None = None
-        while thread.is_alive():
+        while not ended.is_set():
             try:
-                thread.join(LOOK)
+                ended.wait(LOOK)
                 if stop is None and progress is not None and self.control.progress() != told:
                     told = self.control.progress()
                     progress(*told)
