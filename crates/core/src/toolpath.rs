@@ -26,6 +26,10 @@ pub enum SegmentShape {
     Linear,
 }
 
+/// Largest velocity of an axis, mm/s or rad/s: far beyond that of any machine. With a far larger one the end of a
+/// played cubic is rounding alone.
+pub const LARGEST_VELOCITY: f64 = 1e12;
+
 /// One control point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ControlPoint {
@@ -46,6 +50,14 @@ pub struct ControlPoint {
 }
 
 impl ControlPoint {
+    /// The first velocity that is larger than [`LARGEST_VELOCITY`] or no number, with its name.
+    pub fn wild_velocity(&self) -> Option<(&'static str, f64)> {
+        let named = [("vC", self.vc), ("vX", self.vx), ("vZ", self.vz)];
+        let is_wild =
+            |(_, velocity): &(_, f64)| velocity.is_nan() || velocity.abs() > LARGEST_VELOCITY;
+        named.into_iter().find(is_wild)
+    }
+
     /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         [self.t, self.c, self.x, self.z, self.vc, self.vx, self.vz]

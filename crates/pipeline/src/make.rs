@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use rayon::prelude::*;
-use turnpath_core::toolpath::PathBlock;
+use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{CentreBuffers, Dependence, NodeList, Rates, Velocities, angles};
 
 use crate::Result;
@@ -351,11 +351,16 @@ fn solve(plan: &Plan<'_>, window: Window, state: Option<&mut Vec<f64>>) -> Resul
         vz: part(z),
         shape: link.strategy.segments(),
     };
-    if let Some(point) = points.points().find(|point| !point.is_finite()) {
-        let what = format!(
-            "vC = {}, vX = {}, vZ = {} at {:.6} s are not finite",
-            point.vc, point.vx, point.vz, point.t
-        );
+    let place = |point: &ControlPoint| (!point.is_finite()).then_some(("a position", f64::NAN));
+    let wild = |point: ControlPoint| {
+        let found = point.wild_velocity().or_else(|| place(&point));
+        found.map(|found| (point.t, found))
+    };
+    if let Some((t, (name, velocity))) = points.points().find_map(wild) {
+        let what = match velocity.is_finite() {
+            true => format!("{name} = {velocity:e} at {t:.6} s is faster than any machine"),
+            false => format!("{name} = {velocity} at {t:.6} s is not finite"),
+        };
         return Err(link.bad_answer(what));
     }
     Ok(BlockPoints {

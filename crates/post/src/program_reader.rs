@@ -22,7 +22,7 @@ use crate::program_format::{
 };
 use crate::read_error::ReadError;
 use crate::travel_check::TravelCheck;
-use crate::turn::check_turn;
+use crate::turn::{check_turn, check_velocities};
 
 /// Longest line that is read, bytes: far longer than any line of a program, so that a file that is no
 /// program does not fill the memory.
@@ -477,7 +477,8 @@ impl<R: Read> ProgramReader<R> {
         let Some((point, section)) = next else {
             return Ok(None);
         };
-        let checked = check_turn(self.last.as_ref(), &point, section)
+        let checked = check_velocities(&point)
+            .and_then(|()| check_turn(self.last.as_ref(), &point, section))
             .and_then(|()| self.travel.pass(&point, &self.format));
         checked.map_err(|what| self.wrong(what))?;
         self.last = Some((point, section));

@@ -11,7 +11,7 @@ use crate::path_reader::{ReadCount, ReadPath};
 use crate::read_error::ReadError;
 use crate::row::{HEADER, Row};
 use crate::short_lines::ShortLines;
-use crate::turn::check_turn;
+use crate::turn::{check_turn, check_velocities};
 
 /// Largest time, s: three hundred thousand years.
 const LATEST: f64 = 1e13;
@@ -122,6 +122,7 @@ fn check(
             point.t, before.t
         ));
     }
+    check_velocities(point)?;
     check_turn(last, point, section)
 }
 

@@ -1,4 +1,4 @@
-//! The check of C from one control point to the next, for the readers of all files.
+//! The check of C from one control point to the next, and of velocities, for the readers of all files.
 
 use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Section};
@@ -10,6 +10,13 @@ const SMALL_TURN: f64 = 6.0;
 /// Largest C: half a year at 10⁴ rpm. A double still holds it to a ten-thousandth of a degree.
 /// With a far larger C, a double could no longer distinguish parts of a turn.
 const LARGEST_C_DEG: f64 = 1e12;
+
+/// Refuses a velocity that no machine has.
+pub(crate) fn check_velocities(point: &ControlPoint) -> Result<(), String> {
+    point.wild_velocity().map_or(Ok(()), |(name, velocity)| {
+        Err(format!("{name} = {velocity:e} is faster than any machine"))
+    })
+}
 
 /// Checks C. It must be an angle that a double can distinguish from neighbouring angles. It must grow, and by
 /// no more than it can if no point is missing. Only in a lead, near rest, may it stand still.
@@ -54,6 +61,18 @@ mod tests {
         };
         let last = (at(1000.0), section);
         check_turn(Some(&last), &at(1000.0 + deg), section).is_ok()
+    }
+
+    #[test]
+    fn velocities_beyond_any_machine_are_refused() {
+        let at = |vz: f64| ControlPoint {
+            vz,
+            ..ControlPoint::default()
+        };
+        assert_eq!(check_velocities(&at(-1e11)), Ok(()));
+        for vz in [1e13, -1e32, f64::INFINITY, f64::NAN] {
+            assert!(check_velocities(&at(vz)).is_err(), "{vz}");
+        }
     }
 
     #[test]

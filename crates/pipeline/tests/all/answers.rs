@@ -68,7 +68,7 @@ fn velocities_must_be_numbers() {
         velocity: Arc::new(Broken),
         ..Task::default()
     };
-    assert_says(&task, Slot::Velocity, "are not finite");
+    assert_says(&task, Slot::Velocity, "is not finite");
 }
 
 #[test]
