@@ -291,6 +291,33 @@ fn a_spoiled_word_of_a_program_is_reported() {
     }
 }
 
+/// Minutes for seconds, say: the same places at ten times the speed.
+#[test]
+fn a_path_that_turns_faster_than_its_spindle_exceeds_it() {
+    let at_speed = |factor: f64| {
+        let mut lines = table();
+        for line in &mut lines[1..] {
+            let mut values: Vec<String> = line.split(',').map(String::from).collect();
+            for column in [VC, VX, VZ] {
+                values[column] = (factor * value(line, column)).to_string();
+            }
+            values[0] = (value(line, 0) / factor).to_string();
+            *line = values.join(",");
+        }
+        verify("faster.csv", &lines)
+    };
+    let said = at_speed(10.0).ends(1).json();
+    assert_eq!(said["within"]["spindle"], false);
+    assert_eq!(said["within"]["interpolation"], true);
+    assert!(
+        number(&said, "/cutting_speed/spindle_most_rpm")
+            > 9.0 * number(&said, "/spindle_limit_rpm")
+    );
+    for factor in [0.1, 1.0] {
+        assert_eq!(at_speed(factor).ends(0).json()["within"]["spindle"], true);
+    }
+}
+
 /// In such a program a distance that is wrong or lost moves all points behind it.
 #[test]
 fn a_distance_that_is_wrong_or_lost_is_one_row() {

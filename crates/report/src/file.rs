@@ -8,9 +8,14 @@ use crate::path::PathReport;
 use crate::program::ControllerCommand;
 use crate::reach::Reach;
 use crate::result_check::ResultCheck;
+use crate::unit;
 use crate::unreached::Unreached;
-use crate::verdict::Verdict;
+use crate::verdict::{Verdict, within};
 use crate::wholeness::Wholeness;
+
+/// How much faster than its spindle a path may turn between two points: a controller's steps of time round short
+/// segments.
+const ROUNDED_TIMES: f64 = 1.01;
 
 /// What `verify` measured on a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -33,6 +38,9 @@ pub struct FileReport {
     /// of this recipe does not show it, since the path has no leads.
     #[serde(default)]
     pub wholeness: Option<Wholeness>,
+    /// The largest speed of the recipe's spindle, rad/s.
+    #[serde(rename = "spindle_limit_rpm", with = "unit::rpm")]
+    pub spindle_limit: f64,
     /// What was measured on the path.
     #[serde(flatten)]
     pub path: PathReport,
@@ -63,9 +71,18 @@ impl FileReport {
         self.within = Verdict {
             whole: self.wholeness.as_ref().map(Wholeness::is_whole),
             result: self.result.as_ref().map(|result| result.holds),
+            spindle: self
+                .fastest_c()
+                .map(|speed| within(speed, ROUNDED_TIMES * self.spindle_limit)),
             ..self.path.verdict(Some(&self.reach))
         };
         crate::format::rounded_for_files(self)
+    }
+
+    /// The highest speed of C in the cut, rad/s: at a control point, unless all that is played is slower.
+    pub(crate) fn fastest_c(&self) -> Option<f64> {
+        let at_points = self.path.cutting_speed?.spindle_most;
+        Some(at_points.min(self.path.axes.c.velocity.max))
     }
 
     /// Which tolerances and limits hold.

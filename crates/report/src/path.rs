@@ -105,6 +105,7 @@ impl PathReport {
             reach: reach.map(Reach::covers_part),
             result: None,
             whole: None,
+            spindle: None,
             programs: None,
             passes: None,
         }

@@ -44,6 +44,10 @@ pub struct Verdict {
     /// recipe asks for leads.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole: Option<bool>,
+    /// Whether C turns no faster in the cut than the recipe's spindle; of a file alone, since the law of a run
+    /// is held to that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spindle: Option<bool>,
     /// The tolerances of the programs, each on its own text; `None` without programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub programs: Option<bool>,
@@ -71,6 +75,7 @@ impl Verdict {
             reach,
             result,
             whole,
+            spindle,
             programs,
             passes,
         } = *self;
@@ -85,6 +90,7 @@ impl Verdict {
             ("reach", reach),
             ("result", result),
             ("whole", whole),
+            ("spindle", spindle),
             ("programs", programs),
             ("passes", passes),
         ]
@@ -113,6 +119,7 @@ mod tests {
         reach: None,
         result: None,
         whole: None,
+        spindle: None,
         programs: Some(true),
         passes: None,
     };

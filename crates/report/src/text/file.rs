@@ -5,12 +5,13 @@ use turnpath_core::printable_line;
 use crate::file::FileReport;
 use crate::reach::{Radial, Radii, Reach};
 use crate::result_check::ResultCheck;
+use crate::unit;
 use crate::wholeness::Wholeness;
 
 use super::anomalies::anomalies;
 use super::commands::commands_of_file;
 use super::lead::lead;
-use super::numbers::{grouped, line, millimetres};
+use super::numbers::{grouped, line, millimetres, significant};
 use super::path::path;
 use super::servo::servo;
 use super::unreached::unreached;
@@ -27,6 +28,7 @@ pub fn file(report: &FileReport) -> String {
     text += &reach(&report.reach);
     text += &wholeness(report.wholeness.as_ref());
     text += &path(&report.path, verdict);
+    text += &spindle(report);
     if let Some(report) = &report.path.lead {
         text += &lead(report, verdict.lead);
     }
@@ -57,6 +59,23 @@ fn result(result: Option<&ResultCheck>) -> String {
         .iter()
         .map(|note| line("", printable_line(note)));
     line("result", verdict) + &notes.collect::<String>()
+}
+
+/// The line on a spindle that turns faster than the recipe's; empty otherwise.
+fn spindle(report: &FileReport) -> String {
+    match (report.within.spindle, report.fastest_c()) {
+        (Some(false), Some(fastest)) => {
+            let [most, limit] =
+                [fastest, report.spindle_limit].map(|speed| significant(speed * unit::rpm::PER));
+            line(
+                "spindle",
+                format!(
+                    "EXCEEDED: C turns at up to {most} rpm, and the recipe's speed is {limit} rpm"
+                ),
+            )
+        }
+        _ => String::new(),
+    }
 }
 
 fn reach(reach: &Reach) -> String {
