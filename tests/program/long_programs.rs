@@ -58,7 +58,10 @@ fn parts_measure_as_one_program_and_are_in_the_result() {
             run["programs"][k]["interpolation_error_nm"],
             one["programs"][k]["interpolation_error_nm"]
         );
-        let part = |number: usize| format!("recipe-part-{number}.{end}");
+        let part = |number: usize| match end {
+            "mpf" => format!("recipe_part_{number}.{end}"),
+            _ => format!("recipe-part-{number}.{end}"),
+        };
         let parts =
             (1..).take_while(|number| bench.path(format!("out/{}", part(*number))).exists());
         let parts: Vec<String> = parts.map(part).collect();

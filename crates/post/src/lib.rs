@@ -81,7 +81,7 @@ pub use digits::{DigitSegment, Digits};
 pub use dry_run::{DryRunError, DryStop};
 pub use layout::{Layout, Lines};
 pub use maps::{GridPoints, GsfWriter, XyzWriter, ZemaxWriter};
-pub use part_name::{PartLines, PartName, PartNumbers};
+pub use part_name::{PartLines, PartName, PartNames, PartNumbers};
 pub use parts::{PartLimits, PartsError};
 pub use path_reader::{ReadCount, ReadPath};
 pub use post::{Command, DepthLoop, Dialect, Grammar, PlainLines, Post};

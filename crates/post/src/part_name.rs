@@ -22,11 +22,27 @@ const END: u32 = 1000;
 /// knows by the first digit.
 const OF_A_PATH: u32 = 100;
 
-/// The numbers of the programs with the parts of a path.
+/// Which names a controller takes for parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PartNames {
+    /// Letters, digits, `-` and `_`, as many as there are.
+    Free,
+    /// Letters, digits and `_`, 24 at most without the ending. The first two are letters, or `_` and a letter: the
+    /// names of programs of Sinumerik, Programming Manual 6FC5398-2EP40-0BA0, pages 42 and 491.
+    Sinumerik,
+}
+
+/// Most characters of a name of [`PartNames::Sinumerik`].
+const MOST_OF_SINUMERIK: usize = 24;
+/// What makes any name begin as Sinumerik wants it.
+const BEGIN_OF_SINUMERIK: &str = "_p";
+
+/// The numbers of the programs with the parts of a path, and what their names look like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PartNumbers {
     first: u32,
     most: u32,
+    names: PartNames,
 }
 
 impl PartNumbers {
@@ -34,6 +50,7 @@ impl PartNumbers {
     pub const ALONE: Self = Self {
         first: FIRST,
         most: END - FIRST,
+        names: PartNames::Free,
     };
     /// How many rough paths have numbers beside the finishing path.
     pub const MOST_ROUGH_PATHS: u32 = END / OF_A_PATH - 2;
@@ -47,7 +64,14 @@ impl PartNumbers {
                 true => OF_A_PATH - 1,
                 false => 0,
             },
+            names: PartNames::Free,
         }
+    }
+
+    /// The same with other names.
+    #[must_use]
+    pub fn with_names(self, names: PartNames) -> Self {
+        Self { names, ..self }
     }
 
     /// How many parts the path may have.
@@ -90,7 +114,10 @@ impl PartName {
             _ => format!("_{:x}", u32::from(c)),
         };
         let stem: String = stem.chars().map(plain).collect();
-        let stem = format!("{stem}-part-{number}");
+        let stem = match numbers.names {
+            PartNames::Free => format!("{stem}-part-{number}"),
+            PartNames::Sinumerik => sinumerik_name(&stem, number),
+        };
         Self {
             file: format!("{stem}.{extension}"),
             stem,
@@ -100,9 +127,71 @@ impl PartName {
     }
 }
 
+/// The name of a part as Sinumerik takes it. Of a long one the sum of its letters is kept, so that programs with
+/// the same beginning have parts of different names.
+fn sinumerik_name(stem: &str, number: u32) -> String {
+    let mut stem = stem.replace('-', "_");
+    let begins_well = matches!(stem.as_bytes(), [b'a'..=b'z' | b'_', b'a'..=b'z', ..]);
+    if !begins_well {
+        stem.insert_str(0, BEGIN_OF_SINUMERIK);
+    }
+    let end = format!("_part_{number}");
+    let room = MOST_OF_SINUMERIK.saturating_sub(end.len());
+    if stem.len() > room {
+        let sum = format!("_{:04x}", sum_of(&stem));
+        stem.truncate(room.saturating_sub(sum.len()));
+        stem += &sum;
+    }
+    stem + &end
+}
+
+/// A sum of the letters of a name: FNV-1a of 32 bits, folded to 16.
+fn sum_of(name: &str) -> u32 {
+    const BASIS: u32 = 0x811C_9DC5;
+    const PRIME: u32 = 0x0100_0193;
+    let sum = name.bytes().fold(BASIS, |sum, byte| {
+        (sum ^ u32::from(byte)).wrapping_mul(PRIME)
+    });
+    (sum >> 16) ^ (sum & 0xFFFF)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_for_sinumerik_have_the_characters_that_its_manual_allows() {
+        let numbers = PartNumbers::ALONE.with_names(PartNames::Sinumerik);
+        let of = |program: &str, number| PartName::of(program, number, &numbers).file;
+        assert_eq!(of("mirror.mpf", 1), "mirror_part_1.mpf");
+        assert_eq!(of("Lens-A.mpf", 12), "lens_a_part_12.mpf");
+        assert_eq!(of("5mm.mpf", 1), "_p5mm_part_1.mpf");
+        assert_eq!(of("r.mpf", 1), "_pr_part_1.mpf");
+        assert_eq!(of("_a.mpf", 1), "_a_part_1.mpf");
+        let long = [
+            "off-axis-paraboloid-213mm.mpf",
+            "off-axis-paraboloid-213mm-rough.mpf",
+        ];
+        let [one, other] = long.map(|program| of(program, 99_999));
+        assert_ne!(one, other);
+        for program in [
+            "-",
+            "é",
+            "__",
+            "a",
+            "very long name of a lens array.mpf",
+            long[0],
+        ] {
+            for number in [1, 99_999] {
+                let name = PartName::of(program, number, &numbers).stem;
+                let bytes = name.as_bytes();
+                let is_allowed = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+                assert!(name.len() <= 24 && bytes.iter().all(is_allowed), "{name}");
+                assert!(bytes[0].is_ascii_alphabetic() || bytes[0] == b'_', "{name}");
+                assert!(bytes[1].is_ascii_alphabetic(), "{name}");
+            }
+        }
+    }
 
     #[test]
     fn names_that_differ_in_a_letter_of_any_alphabet_have_parts_of_different_names() {

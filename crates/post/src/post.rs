@@ -9,7 +9,7 @@ use crate::comment::code_before_comment;
 use crate::digit_segments::DigitSegments;
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code;
-use crate::part_name::{PartLines, PartName, PartNumbers};
+use crate::part_name::{PartLines, PartName, PartNames, PartNumbers};
 use crate::program_error::ProgramError;
 use crate::program_format::{Depths, FeedMeaning, ProgramFormat};
 use crate::travel::{Places, Travel, TravelModes};
@@ -156,6 +156,11 @@ pub trait Dialect: Debug + Send + Sync {
     /// program's own file, with the numbers of its parts.
     fn called_part(&self, _code: &str, _main: (&str, &PartNumbers)) -> Option<String> {
         None
+    }
+
+    /// Which names the controller takes for parts.
+    fn part_names(&self) -> PartNames {
+        PartNames::Free
     }
 
     /// Whether the controller calls a part by a number, and not by a name.

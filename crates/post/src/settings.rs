@@ -261,7 +261,7 @@ impl Post {
                 .map(|limit| (limit / DEG * 10u64.pow(position_decimals) as f64).floor() as i64),
             depths: depths(settings, position_decimals),
             time_axis: self.time_axis(settings),
-            part_numbers: PartNumbers::ALONE,
+            part_numbers: PartNumbers::ALONE.with_names(self.dialect.part_names()),
             approach_height: APPROACH_HEIGHT,
             approach_feed: APPROACH_FEED,
             chords: (self.shape == SegmentShape::Linear)

@@ -203,10 +203,14 @@ fn is_of_a_file(name: &str) -> bool {
     !name.is_empty() && name.chars().all(good)
 }
 
-/// Why a path's name cannot be the end of the names of its files, if it cannot. Names of parts are in small
-/// letters.
+/// A path's name as in the names of parts: in small letters, and some controllers take no `-`.
+fn as_in_parts(name: &str) -> String {
+    name.to_ascii_lowercase().replace('_', "-")
+}
+
+/// Why a path's name cannot be the end of the names of its files, if it cannot.
 fn taken_name(entry: &Entry, all: &[Entry]) -> Option<Diagnostic> {
-    let own = entry.key.to_ascii_lowercase();
+    let own = as_in_parts(&entry.key);
     let wrong = |title: String, help: &str| {
         Some(Diagnostic::new(entry.span.clone(), title).with_help(help))
     };
@@ -217,12 +221,12 @@ fn taken_name(entry: &Entry, all: &[Entry]) -> Option<Diagnostic> {
     }
     let mut is_earlier = true;
     for other in all {
-        let (name, said) = (other.key.to_ascii_lowercase(), quoted(&other.key));
+        let (name, said) = (as_in_parts(&other.key), quoted(&other.key));
         is_earlier &= other.key != entry.key;
         let rest = own.strip_prefix(&name);
         if rest == Some("") && is_earlier {
             let title = format!(
-                "{} and {said} differ only in small and capital letters",
+                "{} and {said} differ only in capital letters, or in `-` and `_`",
                 quoted(&entry.key)
             );
             return wrong(

@@ -55,7 +55,7 @@ pub fn layout(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> L
     let format = ProgramFormat {
         // A rough path is played once: the loop is that of the finishing path.
         depths: format.depths.filter(|_| recipe.rough_name().is_none()),
-        part_numbers: part_numbers(recipe, post),
+        part_numbers: part_numbers(recipe, post, format.part_numbers),
         approach_height: output.approach_height,
         approach_feed: output.approach_feed * MINUTE,
         ..format
@@ -63,11 +63,11 @@ pub fn layout(recipe: &Recipe, post: &'static Post, compensates_nose: bool) -> L
     Layout { post, format }
 }
 
-/// The numbers of the parts of a recipe's path. All paths of a run may lie in one controller, so none has the
-/// number of a part of another.
-fn part_numbers(recipe: &Recipe, post: &Post) -> PartNumbers {
+/// The numbers of the parts of a recipe's path; `alone` are those of a path without others. All paths of a run may
+/// lie in one controller, so none has the number of a part of another.
+fn part_numbers(recipe: &Recipe, post: &Post, alone: PartNumbers) -> PartNumbers {
     match recipe.path_of_several() {
         Some(path) if post.dialect.calls_by_number() => PartNumbers::of_path(path),
-        _ => PartNumbers::ALONE,
+        _ => alone,
     }
 }

@@ -44,7 +44,7 @@ use turnpath_core::toolpath::SegmentShape;
 
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code::push_travel;
-use crate::part_name::{PartLines, PartName, PartNumbers};
+use crate::part_name::{PartLines, PartName, PartNames, PartNumbers};
 use crate::post::{Command, Dialect, Grammar, Post, commands_of};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
@@ -154,6 +154,10 @@ impl Dialect for Poly {
             // `RET` ends a subprogram without an end of the continuous path.
             end: "RET\n".to_owned(),
         })
+    }
+
+    fn part_names(&self) -> PartNames {
+        PartNames::Sinumerik
     }
 
     fn part_frame(&self, _part: &PartName) -> [Vec<String>; 2] {
