@@ -186,6 +186,28 @@ fn a_wrong_flag_of_the_units() {
     insta::assert_snapshot!(bench.shown(&said));
 }
 
+/// A grid of 0.5 mm over a part of 5 mm whose map has 2 mm.
+#[test]
+fn heights_beyond_a_map_are_told_as_the_surface_is_written() {
+    let notes = |side: f64, output: &str| {
+        let bench = bench(&saddle(side, 25));
+        let said = bench.line(&format!("sag recipe.toml --grid 11 -o {output}"));
+        said.ends(0).stderr
+    };
+    let at = |k: i32| 0.5 * f64::from(k);
+    let places = (-5..=5).flat_map(|j| (-5..=5).map(move |i| [at(i), at(j)]));
+    let is_beyond = |[x, y]: &[f64; 2]| x * x + y * y <= 6.25 && x.abs().max(y.abs()) > 1.0;
+    let count = places.filter(is_beyond).count();
+    for output in ["s.csv", "s.DAT", "s.gsf", "-"] {
+        let said = notes(2.0, output);
+        let wanted = format!(
+            "{count} of 121 points lie on the part and beyond the data of its map, by up to 1.458 mm"
+        );
+        assert!(said.contains(&wanted), "{output}: {said}");
+        assert_eq!(notes(6.0, output), "", "{output}");
+    }
+}
+
 #[test]
 fn a_cutoff_that_does_not_suit_the_map() {
     let bench = bench(&saddle(6.0, 25));

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use turnpath::report::text;
 use turnpath::{
-    Catalogue, Error, LARGEST_MAP_LENGTH, LEAST_MAP_PITCH, MapFormat, MapSource, Recipe,
+    Catalogue, Error, LARGEST_MAP_LENGTH, LEAST_MAP_PITCH, MapFormat, MapSource, Recipe, SagGaps,
     compare_with_map, length_unit, write_sag, write_sag_to,
 };
 use turnpath_core::Quantity;
@@ -45,8 +45,8 @@ pub fn sag(args: &SagArgs, catalogue: Catalogue) -> Outcome {
 
 fn write(recipe: &Recipe, catalogue: &Catalogue, count: usize, output: &Path) -> Outcome {
     if !is_standard(output) {
-        let missing = write_sag(recipe, catalogue, count, output)?;
-        note_missing(missing, count);
+        let gaps = write_sag(recipe, catalogue, count, output)?;
+        note_gaps(&gaps, count);
         return Ok(Status::Holds);
     }
     let mut writer = BufWriter::new(Output);
@@ -54,15 +54,23 @@ fn write(recipe: &Recipe, catalogue: &Catalogue, count: usize, output: &Path) ->
         // A reader that has gone, such as `head`, is no failure.
         Err(Error::File(error)) if error.error.kind() == ErrorKind::BrokenPipe => {}
         Err(Error::File(error)) => return Err(Failure::Output(error.error)),
-        answer => note_missing(answer?, count),
+        answer => note_gaps(&answer?, count),
     }
     Ok(Status::Holds)
 }
 
-/// Says on standard error how many points of a grid have no height, if some have none.
-fn note_missing(missing: usize, count: usize) {
+/// Says on standard error how many points of a grid have no height, and how many lie beyond the data of the
+/// surface, if some do.
+fn note_gaps(gaps: &SagGaps, count: usize) {
     let all = count * count;
-    match missing {
+    if gaps.beyond_data > 0 {
+        note(&format!(
+            "{} of {all} points lie on the part and beyond the data of its map, by up to {:.3} mm: the surface \
+             goes on there by itself",
+            gaps.beyond_data, gaps.farthest
+        ));
+    }
+    match gaps.missing {
         0 => {}
         1 => note(&format!(
             "1 of {all} points has no height: it lies beyond the part"

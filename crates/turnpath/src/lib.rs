@@ -96,7 +96,7 @@ pub use recipe_file::write_recipe;
 pub use recipe_schema::recipe_schema;
 pub use result_check::{ResultError, read_result};
 pub use run::RunResult;
-pub use sag::{MapSource, compare_with_map, write_sag, write_sag_to};
+pub use sag::{MapSource, SagGaps, compare_with_map, write_sag, write_sag_to};
 pub use strategies::with_wrong_strategies;
 pub use toolpath::ToolPath;
 pub use turnpath_core::toolpath::Section;

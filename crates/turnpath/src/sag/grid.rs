@@ -18,10 +18,35 @@ use crate::input_files::refuse_as_output;
 use crate::plots::check_grid;
 use crate::surface::surface;
 
+/// A distance below this is rounding of the edge of the data, mm.
+const SMALLEST: f64 = 1e-9;
+
+/// What the points of a grid lack.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SagGaps {
+    /// Points beyond the part at which the surface has no height.
+    pub missing: usize,
+    /// Points of the part that lie beyond the data that the surface was made from: the surface goes on there
+    /// by itself.
+    pub beyond_data: usize,
+    /// The farthest of these from the data, mm.
+    pub farthest: f64,
+}
+
+impl SagGaps {
+    fn and(self, other: Self) -> Self {
+        Self {
+            missing: self.missing + other.missing,
+            beyond_data: self.beyond_data + other.beyond_data,
+            farthest: self.farthest.max(other.farthest),
+        }
+    }
+}
+
 /// Writes the recipe's surface at `count` × `count` points of the square around the aperture, its
 /// edges included. The ending of the file's name chooses the form: `.gsf`, `.DAT` (Zemax), or CSV
 /// with slopes for all others. A point beyond the part where the surface has no height is NaN, in
-/// `.DAT` a hole. Gives how many such points there are.
+/// `.DAT` a hole. Gives what the points lack.
 ///
 /// # Errors
 /// When `count` is not in [`GRID_POINTS`](crate::GRID_POINTS), when the surface is not there, has no
@@ -32,7 +57,7 @@ pub fn write_sag(
     catalogue: &Catalogue,
     count: usize,
     file: &Path,
-) -> Result<usize, Error> {
+) -> Result<SagGaps, Error> {
     check_grid(count)?;
     let form = GridForm::of(file);
     let files = DataFiles::default();
@@ -45,26 +70,26 @@ pub fn write_sag(
     refuse_as_output(file, read.chain([recipe.path()]))?;
     if form == GridForm::Csv {
         let mut draft = Draft::begin(file)?;
-        let missing = write_rows(recipe, &grid, &surface, &mut draft, file)?;
+        let gaps = write_rows(recipe, &grid, &surface, &mut draft, file)?;
         draft.complete()?;
-        return Ok(missing);
+        return Ok(gaps);
     }
     let title = format!("{}: surface", recipe.name);
     let Some(mut writer) = GridWriter::begin(form, file, &title, &grid.points())? else {
-        return Ok(0);
+        return Ok(SagGaps::default());
     };
-    let mut missing = 0;
+    let mut gaps = SagGaps::default();
     for j in (0..count).rev() {
         let row = grid.row(j, &surface);
-        let row = row.map_err(|error| of_pipeline(recipe, error))?;
-        missing += without_height(&row);
+        let (row, of_row) = row.map_err(|error| of_pipeline(recipe, error))?;
+        gaps = gaps.and(of_row);
         writer.row(row.into_iter().map(|[_, _, z, _, _]| z))?;
     }
     writer.complete()?;
-    Ok(missing)
+    Ok(gaps)
 }
 
-/// Writes the same as CSV into `output`; errors name it `name`. Gives the same number.
+/// Writes the same as CSV into `output`; errors name it `name`.
 ///
 /// # Errors
 /// Those of [`write_sag`].
@@ -74,7 +99,7 @@ pub fn write_sag_to(
     count: usize,
     output: &mut impl io::Write,
     name: &Path,
-) -> Result<usize, Error> {
+) -> Result<SagGaps, Error> {
     check_grid(count)?;
     let surface = surface(recipe, catalogue, &DataFiles::default())?;
     write_rows(recipe, &Grid::new(recipe, count), &surface, output, name)
@@ -87,15 +112,15 @@ fn write_rows(
     surface: &Link<dyn SurfaceModel>,
     output: &mut impl io::Write,
     name: &Path,
-) -> Result<usize, Error> {
+) -> Result<SagGaps, Error> {
     let mut rows = csv::Writer::from_writer(output);
     rows.write_record(["x_mm", "y_mm", "z_mm", "zx", "zy"])
         .map_err(|error| not_written(name, error))?;
-    let mut missing = 0;
+    let mut gaps = SagGaps::default();
     for j in 0..grid.count {
         let row = grid.row(j, surface);
-        let row = row.map_err(|error| of_pipeline(recipe, error))?;
-        missing += without_height(&row);
+        let (row, of_row) = row.map_err(|error| of_pipeline(recipe, error))?;
+        gaps = gaps.and(of_row);
         for point in row {
             let written = rows.serialize(point);
             written.map_err(|error| not_written(name, error))?;
@@ -103,12 +128,7 @@ fn write_rows(
     }
     let flushed = rows.flush();
     flushed.map_err(|error| not_written(name, error))?;
-    Ok(missing)
-}
-
-/// How many points of a row have no height.
-fn without_height(row: &[[f64; 5]]) -> usize {
-    row.iter().filter(|[_, _, z, _, _]| z.is_nan()).count()
+    Ok(gaps)
 }
 
 /// A square grid around the axis, its edges included.
@@ -143,12 +163,12 @@ impl Grid {
         self.half * (2.0 * index as f64 - last) / last
     }
 
-    /// x, y, z and both slopes along one row.
+    /// x, y, z and both slopes along one row, and what its points lack.
     fn row(
         &self,
         j: usize,
         surface: &Link<dyn SurfaceModel>,
-    ) -> Result<Vec<[f64; 5]>, PipelineError> {
+    ) -> Result<(Vec<[f64; 5]>, SagGaps), PipelineError> {
         let x: Vec<f64> = (0..self.count).map(|i| self.at(i)).collect();
         let y = vec![self.at(j); self.count];
         let mut z = vec![f64::NAN; self.count];
@@ -160,10 +180,11 @@ impl Grid {
         };
         let answer = surface.strategy.gradient(&x, &y, out);
         answer.map_err(|error| surface.failed("on the grid", error))?;
-        let is_missing = |(place, z): (&f64, &f64)| {
-            let radius = Scalar::hypot(*place, self.at(j));
-            z.is_nan() && (self.hole..=self.half).contains(&radius)
+        let is_of_part = |x: &f64| {
+            let radius = Scalar::hypot(*x, self.at(j));
+            (self.hole..=self.half).contains(&radius)
         };
+        let is_missing = |(x, z): (&f64, &f64)| z.is_nan() && is_of_part(x);
         if let Some(i) = x.iter().zip(&z).position(is_missing) {
             let what = format!(
                 "the surface has no height at x = {:.4} mm, y = {:.4} mm",
@@ -171,8 +192,18 @@ impl Grid {
             );
             return Err(PipelineError::NoSurface(StrategyError::failed(what)));
         }
-        Ok((0..self.count)
-            .map(|i| [x[i], y[i], z[i], zx[i], zy[i]])
-            .collect())
+        let mut distances = vec![0.0; self.count];
+        let answer = surface.strategy.beyond_data(&x, &y, &mut distances);
+        answer.map_err(|error| surface.failed("for its data", error))?;
+        let of_part = x.iter().zip(&distances).filter(|(x, _)| is_of_part(x));
+        let beyond = of_part.filter(|(_, distance)| **distance > SMALLEST);
+        let beyond: Vec<f64> = beyond.map(|(_, distance)| *distance).collect();
+        let gaps = SagGaps {
+            missing: z.iter().filter(|z| z.is_nan()).count(),
+            beyond_data: beyond.len(),
+            farthest: beyond.into_iter().fold(0.0, f64::max),
+        };
+        let row = (0..self.count).map(|i| [x[i], y[i], z[i], zx[i], zy[i]]);
+        Ok((row.collect(), gaps))
     }
 }

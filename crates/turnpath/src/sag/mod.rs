@@ -5,4 +5,4 @@ mod grid;
 mod grid_file;
 
 pub use against::{MapSource, compare_with_map};
-pub use grid::{write_sag, write_sag_to};
+pub use grid::{SagGaps, write_sag, write_sag_to};
