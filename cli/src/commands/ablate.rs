@@ -26,7 +26,7 @@ pub fn ablate(args: &AblateArgs, catalogue: Catalogue) -> Outcome {
     if let Some(folder) = &args.pack {
         refuse_output(Some(folder), "--pack")?;
         let packed = turnpath::pack_ablation(&recipe, &catalogue, folder)?;
-        print(&packed_text(&packed))?;
+        print(&packed_text(&packed, args.recipe.trust_recipe))?;
         return Ok(Status::Holds);
     }
     let recipe = match args.equal_tolerance {
@@ -80,8 +80,8 @@ fn plan_text(plan: &AblationPlan, form: PlanForm) -> String {
     }
 }
 
-/// What was packed, and the call that plans with it.
-fn packed_text(packed: &PackedAblation) -> String {
+/// What was packed, and the call that plans with it, with the trust that packing took.
+fn packed_text(packed: &PackedAblation, is_trusted: bool) -> String {
     let said = |path: &Path| printable_line(&path.display().to_string()).into_owned();
     let files = packed.files.iter();
     let mut text: String = files
@@ -92,8 +92,9 @@ fn packed_text(packed: &PackedAblation) -> String {
         true => " --plugin-dir plugins --plugins-lock plugins.lock",
         false => "",
     };
+    let trust = if is_trusted { " --trust-recipe" } else { "" };
     text += &format!(
-        "\nIn this folder, on any machine: turnpath ablate {}{plugins} -o . --only KEY\n",
+        "\nIn this folder, on any machine: turnpath ablate {}{plugins}{trust} -o . --only KEY\n",
         said(Path::new(recipe))
     );
     text

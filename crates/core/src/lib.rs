@@ -86,5 +86,7 @@ pub use strategy::{HOST_KEYS, Strategy, StrategyInfo, is_strategy_name};
 pub use surface::{GradientSeries, Gradients, Surface, SurfaceData, SurfaceGap, SurfaceModel};
 pub use taylor::{ORDER, Series, Taylor};
 pub use turnpath_units::{DEG, LengthPower, NM, Quantity, QuantityError, UM};
-pub use turns::{Revolutions, Turn, angle, angles, even_angles, within_turn, within_turns};
+pub use turns::{
+    MOST_STEPS_OF_TURN, Revolutions, Turn, angle, angles, even_angles, within_turn, within_turns,
+};
 pub use velocity::{Nodes, Velocities, VelocitySolver};

@@ -138,12 +138,12 @@ pub struct Turn {
 impl Turn {
     /// Nodes from the turn's start to its end (excluded), 1/`steps` of a revolution apart.
     ///
-    /// `steps` is rounded up to a whole number. If `steps` is NaN or less than 1, the result is a
-    /// node that the host refuses.
+    /// `steps` is rounded up to a whole number. If `steps` is NaN, less than 1 or more than [`MOST_STEPS_OF_TURN`], the
+    /// result is a node that is NaN, which the host refuses.
     pub fn subdivide(&self, steps: f64) -> impl Iterator<Item = f64> + use<> {
         let Turn { start, end } = *self;
         let whole = steps.ceil();
-        let usable = (1.0..=MOST_STEPS).contains(&whole);
+        let usable = (1.0..=MOST_STEPS_OF_TURN).contains(&whole);
         let first = if usable { start } else { f64::NAN };
         let length = end - start;
         let count = if usable {
@@ -157,7 +157,7 @@ impl Turn {
 
 /// The most nodes that [`Turn::subdivide`] gives on a revolution. A larger number is likely a
 /// mistake.
-const MOST_STEPS: f64 = 1e7;
+pub const MOST_STEPS_OF_TURN: f64 = 1e7;
 /// A node that lies closer to the turn's end than this part of a step is left out: it would
 /// coincide with the end.
 const NODE_SLACK: f64 = 1e-9;

@@ -6,14 +6,14 @@
 /// Lines of the system: title, units of analyses, pupils, fields, wavelengths, glasses, ray aiming,
 /// polarisation, catalogues, tolerances, and operands of the merit function that only measure.
 const SYSTEM: &[&str] = &[
-    "BLNK", "COFN", "DMFS", "EDGE", "EFFL", "ENPD", "ENVD", "FCOM", "FLOA", "FNUM", "FTYP", "FWGN",
-    "FWGT", "GCAT", "GFAC", "GLRS", "GSTD", "HYPR", "IMAE", "ISNA", "LANG", "MNCA", "MNCG", "MNEA",
-    "MNEG", "MOFF", "MXCA", "MXCG", "MXEA", "MXEG", "NAME", "NOTE", "NSCD", "OBNA", "OMMA", "OPDX",
-    "OPGT", "OPLT", "PFIL", "PICB", "PMAG", "POLS", "PUPD", "PUSH", "PWAV", "PZUP", "RAIM", "RGLA",
-    "ROPD", "RSCE", "RSCH", "SDMA", "STEL", "TCED", "TCMM", "TOL", "TOLE", "TOTR", "TRAC", "TTHI",
-    "UDAD", "VANN", "VCXN", "VCYN", "VDSZ", "VDXN", "VDYN", "VERS", "WAVE", "WAVL", "WAVM", "WAVN",
-    "WWGN", "WWGT", "XFIE", "XFLD", "XFLN", "YFIE", "YFLD", "YFLN", "ZVAN", "ZVCX", "ZVCY", "ZVDX",
-    "ZVDY",
+    "BLNK", "COFN", "DMFS", "EDGE", "EFFL", "EFLX", "EFLY", "ENPD", "ENVD", "FCOM", "FLOA", "FNUM",
+    "FTYP", "FWGN", "FWGT", "GCAT", "GFAC", "GLRS", "GSTD", "HYPR", "IMAE", "ISNA", "LANG", "MNCA",
+    "MNCG", "MNEA", "MNEG", "MOFF", "MXCA", "MXCG", "MXEA", "MXEG", "NAME", "NOTE", "NSCD", "OBNA",
+    "OMMA", "OPDX", "OPGT", "OPLT", "PFIL", "PICB", "PMAG", "POLS", "PUPD", "PUSH", "PWAV", "PZUP",
+    "RAIM", "REAX", "REAY", "REAZ", "RGLA", "ROPD", "RSCE", "RSCH", "SDMA", "STEL", "TCED", "TCMM",
+    "TOL", "TOLE", "TOTR", "TRAC", "TTHI", "UDAD", "VANN", "VCXN", "VCYN", "VDSZ", "VDXN", "VDYN",
+    "VERS", "WAVE", "WAVL", "WAVM", "WAVN", "WFNO", "WWGN", "WWGT", "XFIE", "XFLD", "XFLN", "YFIE",
+    "YFLD", "YFLN", "ZVAN", "ZVCX", "ZVCY", "ZVDX", "ZVDY",
 ];
 
 /// Lines of a surface: glass, coating, thickness, drawing, stop, colours, physical optics, and marks

@@ -1,6 +1,6 @@
 //! What the host requires of the nodes of a block.
 
-use turnpath_core::{LARGEST_OFFSET, NM, NodeList, NodeOffset, Revolutions};
+use turnpath_core::{LARGEST_OFFSET, MOST_STEPS_OF_TURN, NM, NodeList, NodeOffset, Revolutions};
 
 /// Most nodes that a sampler may place in a block. More are taken for a mistake.
 const MOST_NODES: usize = 4_000_000;
@@ -46,7 +46,13 @@ impl NodeCheck {
     fn check_order(&self, nodes: &[f64]) -> Result<(), String> {
         let mut last: Option<f64> = None;
         for (i, node) in nodes.iter().enumerate() {
-            if !node.is_finite() {
+            if node.is_nan() {
+                let said = "`subdivide` gives that for less than one step, and for more than";
+                return Err(format!(
+                    "node {i} is NaN ({said} {MOST_STEPS_OF_TURN:e}, on a revolution)"
+                ));
+            }
+            if node.is_infinite() {
                 return Err(format!("node {i} is {node}"));
             }
             if !(self.block.start..self.block.end).contains(node) {

@@ -142,7 +142,8 @@ class Block:
 def parse_quantity(kind: str, text: str) -> float: ...
 def subdivide(start: float, end: float, steps: float) -> _Column:
     """Nodes from ``start`` to ``end`` (excluded), in revolutions, 1/``steps`` of a revolution apart.
-    ``steps`` is rounded up to a whole number."""
+    ``steps`` is rounded up to a whole number. For less than 1 and for more than 10⁷ the only node is NaN, which
+    is refused."""
 
 def run(
     recipe: _Recipe,

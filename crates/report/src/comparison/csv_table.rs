@@ -67,7 +67,7 @@ fn limits(runs: &[AblationRun]) -> Vec<&'static str> {
     let names = judged.into_iter().flat_map(|one| one.entries());
     let names = names.map(|(name, _)| name);
     names
-        .filter(|name| !["reach", "result", "whole", "programs"].contains(name))
+        .filter(|name| !["reach", "result", "whole", "spindle", "programs"].contains(name))
         .collect()
 }
 
