@@ -8,6 +8,7 @@ use crate::support::bench::{Answer, Bench};
 use serde_json::Value;
 
 const AST_5: &str = include_str!("../../docs/recipes/astigmatic-5mm.toml");
+const CONIC: &str = include_str!("../../docs/recipes/conic-50mm.toml");
 
 /// Columns of `toolpath.csv`.
 const C: usize = 1;
@@ -321,16 +322,27 @@ fn a_path_that_turns_faster_than_its_spindle_exceeds_it() {
 /// In such a program a distance that is wrong or lost moves all points behind it.
 #[test]
 fn a_distance_that_is_wrong_or_lost_is_one_row() {
-    let posts = r#"posts = ["pmac-pvt"]"#;
-    assert!(AST_5.contains(posts));
-    let tables = "[output.pmac-pvt]\npositioning = \"incremental\"\n\
-                  [output.automation1-pvt]\npositioning = \"incremental\"\n";
-    let recipe = AST_5.replace(posts, r#"posts = ["pmac-pvt", "automation1-pvt"]"#) + tables;
-    let bench = Bench::with(&recipe);
-    bench.line("run recipe.toml -o out --no-report").ends(0);
+    is_one_row(AST_5, "", [300, 3000]);
+}
+
+/// On a conic neighbouring distances differ in their last digits alone.
+#[test]
+fn a_distance_that_is_lost_among_others_like_it_is_one_row() {
+    is_one_row(CONIC, "--set part.aperture=20mm", [1000, 5000]);
+}
+
+fn is_one_row(recipe: &str, own: &str, points: [usize; 2]) {
+    let sets = format!(
+        "{own} --set output.posts=[\"pmac-pvt\",\"automation1-pvt\"] \
+         --set output.pmac-pvt.positioning=incremental --set output.automation1-pvt.positioning=incremental"
+    );
+    let bench = Bench::with(recipe);
+    bench
+        .line(&format!("run recipe.toml -o out --no-report {sets}"))
+        .ends(0);
     let told = |name: &str, lines: &[String], kind: &str| {
         bench.write(name, lines.join("\n") + "\n");
-        let said = bench.line(&format!("verify recipe.toml {name} --format json"));
+        let said = bench.line(&format!("verify recipe.toml {name} --format json {sets}"));
         let anomalies = &said.json()["anomalies"];
         assert_eq!(anomalies["compared_with"], "recipe", "{name}: {said}");
         assert_eq!(anomalies["count"], 1, "{name}: {said}");
@@ -344,11 +356,11 @@ fn a_distance_that_is_wrong_or_lost_is_one_row() {
         let moves: Vec<usize> = (0..clean.len())
             .filter(|line| clean[*line].starts_with(is_move) && clean[*line].contains('X'))
             .collect();
-        for point in [300, 3000] {
+        for point in points {
             let line = moves[point - 1];
             let mut wrong = clean.clone();
-            // X goes inward by some tenths of a micrometre.
-            let digit = wrong[line].find("-0.000").unwrap() + "-0.000".len();
+            // X goes by less than a micrometre.
+            let digit = wrong[line].find("0.000").unwrap() + "0.000".len();
             let other = match &wrong[line][digit..=digit] {
                 "5" => "1",
                 _ => "5",

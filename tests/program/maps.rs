@@ -201,7 +201,7 @@ fn heights_beyond_a_map_are_told_as_the_surface_is_written() {
     for output in ["s.csv", "s.DAT", "s.gsf", "-"] {
         let said = notes(2.0, output);
         let wanted = format!(
-            "{count} of 121 points lie on the part and beyond the data of its map, by up to 1.458 mm"
+            "of the part, {count} points lie beyond the data of the surface, by up to 1.458e0 mm"
         );
         assert!(said.contains(&wanted), "{output}: {said}");
         assert_eq!(notes(6.0, output), "", "{output}");

@@ -214,7 +214,7 @@ fn wrong_passes_are_underlined() {
         ),
         (
             "[passes.x]\nallowance = \"5 um\"\n[passes.X]\nallowance = \"1 um\"\n",
-            "`X` and `x` differ only in capital letters, or in `-` and `_`",
+            "`X` and `x` give the same names of parts",
         ),
         (
             "[passes.a]\nallowance = \"10 um\"\n[passes.b]\nallowance = \"50 um\"\n",

@@ -64,9 +64,13 @@ fn write(recipe: &Recipe, catalogue: &Catalogue, count: usize, output: &Path) ->
 fn note_gaps(gaps: &SagGaps, count: usize) {
     let all = count * count;
     if gaps.beyond_data > 0 {
+        let lie = if gaps.beyond_data == 1 {
+            "point lies"
+        } else {
+            "points lie"
+        };
         note(&format!(
-            "{} of {all} points lie on the part and beyond the data of its map, by up to {:.3} mm: the surface \
-             goes on there by itself",
+            "of the part, {} {lie} beyond the data of the surface, by up to {:.3e} mm: there it goes on by itself",
             gaps.beyond_data, gaps.farthest
         ));
     }

@@ -50,12 +50,20 @@ pub struct ControlPoint {
 }
 
 impl ControlPoint {
-    /// The first velocity that is larger than [`LARGEST_VELOCITY`] or no number, with its name.
-    pub fn wild_velocity(&self) -> Option<(&'static str, f64)> {
-        let named = [("vC", self.vc), ("vX", self.vx), ("vZ", self.vz)];
-        let is_wild =
-            |(_, velocity): &(_, f64)| velocity.is_nan() || velocity.abs() > LARGEST_VELOCITY;
-        named.into_iter().find(is_wild)
+    /// The first velocity that is larger than [`LARGEST_VELOCITY`] or no number, in words.
+    pub fn wild_velocity(&self) -> Option<String> {
+        let named = [
+            ("vC", self.vc, "rad/s"),
+            ("vX", self.vx, "mm/s"),
+            ("vZ", self.vz, "mm/s"),
+        ];
+        named.into_iter().find_map(|(name, velocity, unit)| {
+            if !velocity.is_finite() {
+                return Some(format!("{name} = {velocity} is not finite"));
+            }
+            let is_wild = velocity.abs() > LARGEST_VELOCITY;
+            is_wild.then(|| format!("{name} = {velocity:e} {unit} is faster than any machine"))
+        })
     }
 
     /// Whether every number is finite.

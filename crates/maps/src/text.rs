@@ -22,8 +22,9 @@ pub fn text(bytes: &[u8]) -> Result<&str, MapError> {
 /// last number may lack digits.
 pub fn whole_text(bytes: &[u8]) -> Result<&str, MapError> {
     let text = text(bytes)?;
-    // Some instruments end a file by this character alone.
-    match text.is_empty() || text.ends_with(['\n', '\r', '#']) {
+    let last = text.lines().last().unwrap_or_default();
+    // A number that has an end of any kind is whole, and a comment has none.
+    match text.is_empty() || text.ends_with(char::is_whitespace) || last.starts_with(['#', '!']) {
         true => Ok(text),
         false => Err(MapError::at_line(text.lines().count(), MapProblem::CutOff)),
     }

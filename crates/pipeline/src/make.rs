@@ -351,16 +351,12 @@ fn solve(plan: &Plan<'_>, window: Window, state: Option<&mut Vec<f64>>) -> Resul
         vz: part(z),
         shape: link.strategy.segments(),
     };
-    let place = |point: &ControlPoint| (!point.is_finite()).then_some(("a position", f64::NAN));
-    let wild = |point: ControlPoint| {
-        let found = point.wild_velocity().or_else(|| place(&point));
-        found.map(|found| (point.t, found))
+    let wrong = |point: ControlPoint| {
+        let place = || (!point.is_finite()).then(|| "a position is not finite".to_owned());
+        let what = point.wild_velocity().or_else(place)?;
+        Some(format!("at {:.6} s {what}", point.t))
     };
-    if let Some((t, (name, velocity))) = points.points().find_map(wild) {
-        let what = match velocity.is_finite() {
-            true => format!("{name} = {velocity:e} at {t:.6} s is faster than any machine"),
-            false => format!("{name} = {velocity} at {t:.6} s is not finite"),
-        };
+    if let Some(what) = points.points().find_map(wrong) {
         return Err(link.bad_answer(what));
     }
     Ok(BlockPoints {

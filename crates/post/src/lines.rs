@@ -107,9 +107,11 @@ pub(crate) fn refuse_control_characters(line: &[u8]) -> Result<(), String> {
 
 /// Refuses blanks in code that are none to a controller, such as a no-break space.
 pub(crate) fn refuse_other_blanks(code: &str) -> Result<(), String> {
+    if code.is_ascii() {
+        return Ok(());
+    }
     let is_other = |c: &char| !c.is_ascii() && (c.is_whitespace() || c.is_control());
     match code.chars().find(is_other) {
-        _ if code.is_ascii() => Ok(()),
         None => Ok(()),
         Some(c) => Err(format!(
             "the character U+{:04X} stands between the words of this line: no controller takes it for a blank",

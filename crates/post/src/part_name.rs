@@ -34,6 +34,8 @@ pub enum PartNames {
 
 /// Most characters of a name of [`PartNames::Sinumerik`].
 const MOST_OF_SINUMERIK: usize = 24;
+/// Digits of the numbers of parts, for which a long name has room.
+const DIGITS_OF_PARTS: usize = 4;
 /// What makes any name begin as Sinumerik wants it.
 const BEGIN_OF_SINUMERIK: &str = "_p";
 
@@ -136,7 +138,9 @@ fn sinumerik_name(stem: &str, number: u32) -> String {
         stem.insert_str(0, BEGIN_OF_SINUMERIK);
     }
     let end = format!("_part_{number}");
-    let room = MOST_OF_SINUMERIK.saturating_sub(end.len());
+    // All parts of a program begin alike.
+    let longest_end = end.len().max("_part_".len() + DIGITS_OF_PARTS);
+    let room = MOST_OF_SINUMERIK.saturating_sub(longest_end);
     if stem.len() > room {
         let sum = format!("_{:04x}", sum_of(&stem));
         stem.truncate(room.saturating_sub(sum.len()));
@@ -174,6 +178,12 @@ mod tests {
         ];
         let [one, other] = long.map(|program| of(program, 99_999));
         assert_ne!(one, other);
+        let stem_of = |number| {
+            of(long[0], number)
+                .split_once("_part_")
+                .map(|(stem, _)| stem.to_owned())
+        };
+        assert_eq!(stem_of(9), stem_of(1000));
         for program in [
             "-",
             "é",

@@ -254,8 +254,10 @@ pub(crate) fn commands_of(
     is_harmless: impl Fn(&str) -> bool,
 ) -> Vec<Command> {
     let lines = template.lines().zip(1..);
-    // A controller may end a line at a carriage return, and a comment with it.
-    let pieces = lines.flat_map(|(text, line)| text.split('\r').map(move |piece| (piece, line)));
+    // A controller may end a line at such a character, and a comment with it.
+    let ends_line = |c: char| c.is_control() && c != '\t';
+    let pieces =
+        lines.flat_map(|(text, line)| text.split(ends_line).map(move |piece| (piece, line)));
     let commands = pieces.filter_map(|(line_text, line)| {
         let code = code_before_comment(line_text, comments).trim();
         (!code.is_empty()).then(|| Command {

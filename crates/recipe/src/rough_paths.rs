@@ -226,12 +226,12 @@ fn taken_name(entry: &Entry, all: &[Entry]) -> Option<Diagnostic> {
         let rest = own.strip_prefix(&name);
         if rest == Some("") && is_earlier {
             let title = format!(
-                "{} and {said} differ only in capital letters, or in `-` and `_`",
+                "{} and {said} give the same names of parts",
                 quoted(&entry.key)
             );
             return wrong(
                 title,
-                "the parts of their programs would have the same names",
+                "capital letters do not count there, nor do `-` and `_`",
             );
         }
         if rest

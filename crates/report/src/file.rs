@@ -10,12 +10,14 @@ use crate::reach::Reach;
 use crate::result_check::ResultCheck;
 use crate::unit;
 use crate::unreached::Unreached;
-use crate::verdict::{Verdict, within};
+use crate::verdict::Verdict;
 use crate::wholeness::Wholeness;
 
-/// How much faster than its spindle a path may turn between two points: a controller's steps of time round short
-/// segments.
-const ROUNDED_TIMES: f64 = 1.01;
+/// How much faster than its spindle the RMS of C's speed may be: rounding.
+const ROUNDED: f64 = 1.01;
+/// How much faster than its spindle C may turn anywhere. The digits of C and the steps of time make a short segment
+/// of a program faster by a quarter.
+const OF_A_SEGMENT: f64 = 2.0;
 
 /// What `verify` measured on a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,9 +40,14 @@ pub struct FileReport {
     /// of this recipe does not show it, since the path has no leads.
     #[serde(default)]
     pub wholeness: Option<Wholeness>,
-    /// The largest speed of the recipe's spindle, rad/s.
-    #[serde(rename = "spindle_limit_rpm", with = "unit::rpm")]
-    pub spindle_limit: f64,
+    /// The largest speed of the recipe's spindle, rad/s; `None` in a report that was written before it was judged.
+    #[serde(
+        default,
+        rename = "spindle_limit_rpm",
+        with = "unit::rpm",
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub spindle_limit: Option<f64>,
     /// What was measured on the path.
     #[serde(flatten)]
     pub path: PathReport,
@@ -71,18 +78,17 @@ impl FileReport {
         self.within = Verdict {
             whole: self.wholeness.as_ref().map(Wholeness::is_whole),
             result: self.result.as_ref().map(|result| result.holds),
-            spindle: self
-                .fastest_c()
-                .map(|speed| within(speed, ROUNDED_TIMES * self.spindle_limit)),
+            spindle: self.keeps_spindle_speed(),
             ..self.path.verdict(Some(&self.reach))
         };
         crate::format::rounded_for_files(self)
     }
 
-    /// The highest speed of C in the cut, rad/s: at a control point, unless all that is played is slower.
-    pub(crate) fn fastest_c(&self) -> Option<f64> {
-        let at_points = self.path.cutting_speed?.spindle_most;
-        Some(at_points.min(self.path.axes.c.velocity.max))
+    /// Whether C turns no faster in the cut than the recipe's spindle; `None` where nothing says how fast that is.
+    fn keeps_spindle_speed(&self) -> Option<bool> {
+        let limit = self.spindle_limit?;
+        let speed = &self.path.axes.c.velocity;
+        Some(speed.rms <= ROUNDED * limit && speed.max <= OF_A_SEGMENT * limit)
     }
 
     /// Which tolerances and limits hold.

@@ -193,6 +193,7 @@ impl Job {
         observer: &dyn Observer,
     ) -> Result<RunResult, Error> {
         let dry_run = beside.dry_run;
+        self.refuse_outputs(folder, beside)?;
         let rough_paths = self.rough_jobs()?;
         let result = self.take_folder(folder, &rough_paths, beside)?;
         let (mut of_rough, mut files) = (Vec::new(), Vec::new());
@@ -238,6 +239,17 @@ impl Job {
         })
     }
 
+    /// Refuses what is asked for beside the path and cannot be made.
+    fn refuse_outputs(&self, folder: &Path, beside: &BesidePath) -> Result<(), Error> {
+        beside.plots.need_toolpath(&self.recipe)?;
+        if beside.dry_run && self.programs.is_empty() {
+            return Err(Error::NoProgram);
+        }
+        beside.plots.can_be_in_result(folder)?;
+        beside.drawings.can_be_in_result(folder)?;
+        Ok(())
+    }
+
     /// Takes the folder for a result, once it is sure that no output replaces what the run reads.
     fn take_folder(
         &self,
@@ -246,12 +258,6 @@ impl Job {
         beside: &BesidePath,
     ) -> Result<ResultFolder, Error> {
         let (plots, dry_run) = (&beside.plots, beside.dry_run);
-        plots.need_toolpath(&self.recipe)?;
-        if dry_run && self.programs.is_empty() {
-            return Err(Error::NoProgram);
-        }
-        plots.can_be_in_result(folder)?;
-        beside.drawings.can_be_in_result(folder)?;
         can_be_in_result(folder, rough_paths, dry_run)?;
         let names = rough_paths.iter().flat_map(|rough| rough.files(dry_run));
         let names = names.chain(result_files(self, dry_run));

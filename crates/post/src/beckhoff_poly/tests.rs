@@ -338,7 +338,7 @@ fn coefficients_of_any_size_are_refused_with_their_line() {
     let third = "W10000.06 C[POLY A0=18 A1=3000000] X[POLY A0=2.498 A1=-200] Z[POLY A0=2.015]\n";
     let text = good().replace(old, &format!("{second}\n{third}"));
     let message = read(&plain(&BECKHOFF_POLY), text.as_bytes()).unwrap_err();
-    let says = "line 8: vZ = -3.33333333333332e17 is faster than any machine";
+    let says = "line 8: vZ = -3.33333333333332e17 mm/s is faster than any machine";
     assert!(message.contains(says), "{message}");
 }
 

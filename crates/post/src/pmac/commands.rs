@@ -1,5 +1,6 @@
 //! What a header or a footer tells the controller besides the path.
 
+use super::PmacDialect;
 use crate::post::{Command, commands_of};
 
 /// The first of the programs 1000 to 1003, which the controller runs as G, M, T and D codes. To fill
@@ -9,47 +10,43 @@ const FIRST_OF_CODES: u32 = 1000;
 /// The commands of a template, line by line. Comments and empty lines are none.
 ///
 /// These words are harmless: `OPEN PROG` with a number below 1000, `CLEAR` and `CLOSE`, which
-/// say where the program goes, unless `appends` says that a program without `CLEAR` behind it is added to the one
-/// before; `ABS` and `INC`, which say what numbers mean; labels; `DWELL` and
+/// say where the program goes; `ABS` and `INC`, which say what numbers mean; labels; `DWELL` and
 /// `DELAY` with a number, which wait; `RETURN` and `STOP`, which end. Any other word may move an axis,
 /// set a variable, or start what does.
-pub(crate) fn commands(template: &str, appends: bool) -> Vec<Command> {
+///
+/// Turbo PMAC adds to a program that is opened without `CLEAR` behind it. There such an `OPEN` is not harmless.
+pub(crate) fn commands(template: &str, dialect: &PmacDialect) -> Vec<Command> {
     let mut commands = commands_of(template, &[";", "//"], is_harmless);
-    if appends {
-        let clears: Vec<bool> = commands
-            .iter()
-            .map(|one| begins_with_clear(&one.text))
-            .collect();
-        let next_clears = clears.into_iter().skip(1).chain([false]);
-        for (command, next_clears) in commands.iter_mut().zip(next_clears) {
-            command.harmless &= next_clears || !ends_with_open(&command.text);
+    if matches!(dialect, PmacDialect::Turbo) {
+        let empties = |command: &Command| {
+            words(&command.text)
+                .first()
+                .is_some_and(|word| is_clear(word))
+        };
+        let next_empties: Vec<bool> = commands.iter().skip(1).map(empties).collect();
+        let next_empties = next_empties.into_iter().chain([false]);
+        for (command, next_empties) in commands.iter_mut().zip(next_empties) {
+            command.harmless &= next_empties || !opens_without_clear(&command.text);
         }
     }
     commands
 }
 
-/// The words and numbers of a command.
+/// The words of a command, without numbers and signs.
 fn words(command: &str) -> Vec<String> {
     let code = command.to_uppercase();
-    let words = code.split(|c: char| !c.is_ascii_alphanumeric());
-    words
-        .filter(|word| !word.is_empty())
-        .map(str::to_owned)
-        .collect()
+    let words = code.split(|c: char| !c.is_ascii_alphabetic());
+    let words = words.filter(|word| !word.is_empty());
+    words.map(str::to_owned).collect()
 }
 
 fn is_clear(word: &str) -> bool {
     matches!(word, "CLEAR" | "CLR")
 }
 
-fn begins_with_clear(command: &str) -> bool {
-    words(command).first().is_some_and(|word| is_clear(word))
-}
-
-/// Whether a command opens a program and does not empty it.
-fn ends_with_open(command: &str) -> bool {
+fn opens_without_clear(command: &str) -> bool {
     let words = words(command);
-    let opens = words.iter().rposition(|word| word.starts_with("OPEN"));
+    let opens = words.iter().rposition(|word| word == "OPEN");
     opens.is_some_and(|at| !words[at..].iter().any(|word| is_clear(word)))
 }
 
@@ -64,7 +61,7 @@ pub(crate) fn ends_program(command: &str) -> bool {
 /// alone opens and closes nothing.
 pub(crate) fn leaves_program_open(header: &str) -> bool {
     let mut open = false;
-    for command in commands(header, false) {
+    for command in commands(header, &PmacDialect::Power) {
         let code = command.text.to_uppercase();
         for word in code.split(|c: char| !c.is_ascii_alphabetic()) {
             match word {
@@ -137,7 +134,9 @@ mod tests {
     use crate::pmac::PMAC_PVT;
 
     fn all_harmless(text: &str) -> bool {
-        commands(text, true).iter().all(|command| command.harmless)
+        commands(text, &PmacDialect::Turbo)
+            .iter()
+            .all(|command| command.harmless)
     }
 
     #[test]
@@ -163,10 +162,16 @@ mod tests {
             "OPEN PROG 1 ABS",
         ] {
             assert!(!all_harmless(text), "{text}");
-            let of_power = commands(text, false);
+            let of_power = commands(text, &PmacDialect::Power);
             assert!(of_power.iter().all(|command| command.harmless), "{text}");
         }
-        assert!(all_harmless("OPEN PROG 1\nCLEAR\n"));
+        for text in [
+            "OPEN PROG 1\nCLEAR\n",
+            "OPEN PROG 1CLEAR",
+            "CLOSE OPEN PROG 12 clr",
+        ] {
+            assert!(all_harmless(text), "{text}");
+        }
     }
 
     #[test]
@@ -212,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_command_is_told_with_its_line_and_without_its_comment() {
-        let found = commands("; {name}\n\n  M1=1 ; coolant\nCLOSE\n", true);
+        let found = commands("; {name}\n\n  M1=1 ; coolant\nCLOSE\n", &PmacDialect::Turbo);
         let command = |line, text: &str, harmless| Command {
             line,
             text: text.to_owned(),

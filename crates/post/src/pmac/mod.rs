@@ -258,7 +258,7 @@ impl Dialect for Pvt {
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
-        commands(template, matches!(self.dialect, PmacDialect::Turbo))
+        commands(template, &self.dialect)
     }
 
     fn leaves_program_open(&self, header: &str) -> bool {

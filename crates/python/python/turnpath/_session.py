@@ -147,8 +147,8 @@ class Session:
             target=self._body, args=(command, done, ended), name="turnpath", daemon=True
         )
         thread.start()
-        stop, late = self._wait(ended, progress)
-        if not ended.is_set():
+        stop, late = self._wait(thread, ended, progress)
+        if thread.is_alive() and not ended.is_set():
             self.control.cancel()
             with _shared:
                 _left.append(thread)
@@ -169,20 +169,25 @@ class Session:
         except BaseException as error:  # noqa: B902: the waiting thread raises it
             done["error"] = error
         finally:
-            _count_active(-1)
-            ended.set()
+            try:
+                _count_active(-1)
+            finally:
+                ended.set()
 
     def _wait(
-        self, ended: threading.Event, progress: Callable[[str, int, int], Any] | None
+        self,
+        thread: threading.Thread,
+        ended: threading.Event,
+        progress: Callable[[str, int, int], Any] | None,
     ) -> tuple[BaseException | None, list[_Call]]:
         """Waits until the work has ended, or a strategy does not hear. Gives what stopped it from here,
         and the calls that do not hear; a second Ctrl-C waits no longer.
 
-        The thread itself is not asked: up to Python 3.12 a Ctrl-C during `Thread.join` makes a thread that
-        goes on say that it has ended."""
+        The thread is not joined: up to Python 3.12 a Ctrl-C during `Thread.join` makes a thread that goes on say
+        that it has ended."""
         stop: BaseException | None = None
         told: tuple[str, int, int] | None = None
-        while not ended.is_set():
+        while thread.is_alive() and not ended.is_set():
             try:
                 ended.wait(LOOK)
                 if stop is None and progress is not None and self.control.progress() != told:

@@ -63,16 +63,15 @@ fn result(result: Option<&ResultCheck>) -> String {
 
 /// The line on a spindle that turns faster than the recipe's; empty otherwise.
 fn spindle(report: &FileReport) -> String {
-    match (report.within.spindle, report.fastest_c()) {
-        (Some(false), Some(fastest)) => {
-            let [most, limit] =
-                [fastest, report.spindle_limit].map(|speed| significant(speed * unit::rpm::PER));
-            line(
-                "spindle",
-                format!(
-                    "EXCEEDED: C turns at up to {most} rpm, and the recipe's speed is {limit} rpm"
-                ),
-            )
+    match (report.within.spindle, report.spindle_limit) {
+        (Some(false), Some(limit)) => {
+            let speed = &report.path.axes.c.velocity;
+            let [rms, most, limit] =
+                [speed.rms, speed.max, limit].map(|speed| significant(speed * unit::rpm::PER));
+            let text = format!(
+                "EXCEEDED: C turns at {rms} rpm rms and {most} rpm at most, and the recipe's speed is {limit} rpm"
+            );
+            line("spindle", text)
         }
         _ => String::new(),
     }

@@ -171,7 +171,7 @@ impl<'a> Target<'a> {
             within: path.verdict(Some(&reach)),
             reach,
             wholeness: self.wholeness(file, read.last())?,
-            spindle_limit: recipe.spindle_speed,
+            spindle_limit: Some(recipe.spindle_speed),
             path,
             files: self.draw(file, plots, &played, observer)?,
             anomalies,

@@ -74,16 +74,18 @@ impl HalfDigits {
         [self.angle, self.position, self.position]
     }
 
-    /// Whether the way from one row to the next is the same in a file and in the recipe's path.
+    /// Whether the way from one row to the next has the same digits in a file and in the recipe's path.
     pub fn same_way(&self, file: [&PathRow; 2], remade: [&PathRow; 2]) -> bool {
         let half_digits = self.of_place();
         let [[from, to], [other_from, other_to]] =
             [file, remade].map(|rows| rows.map(PathRow::place));
         (0..half_digits.len()).all(|axis| {
-            let ends = [from[axis], to[axis], other_from[axis], other_to[axis]];
-            let largest = ends.into_iter().map(f64::abs).fold(0.0, f64::max);
-            let apart = (to[axis] - from[axis]) - (other_to[axis] - other_from[axis]);
-            apart.abs() <= 2.0 * (half_digits[axis] + ROUNDING * largest)
+            let digit = 2.0 * half_digits[axis];
+            let way = |from: f64, to: f64| match digit > 0.0 {
+                true => (to / digit).round() - (from / digit).round(),
+                false => to - from,
+            };
+            way(from[axis], to[axis]) == way(other_from[axis], other_to[axis])
         })
     }
 

@@ -54,17 +54,36 @@ fn compare_within(
     compare_by(comparison, file, recipe)
 }
 
-/// The comparison with a file of distances, whose sums round.
+/// The last digit of a file of distances, mm and rad.
+const DIGIT: f64 = 1e-9;
+
+/// The rows as a file of distances has them.
+fn in_digits(rows: &[PathRow]) -> Vec<PathRow> {
+    let rounded = |value: f64| (value / DIGIT).round() * DIGIT;
+    let row = |row: &PathRow| PathRow {
+        point: ControlPoint {
+            c: rounded(row.point.c),
+            x: rounded(row.point.x),
+            z: rounded(row.point.z),
+            ..row.point
+        },
+        ..*row
+    };
+    rows.iter().map(row).collect()
+}
+
+/// The comparison with a file of distances.
 fn compare_distances(file: &[PathRow], recipe: &[PathRow]) -> (ComparisonFigures, bool) {
     let digits = HalfDigits {
         time: 1e-12,
-        position: 1e-12,
-        angle: 1e-12,
+        position: 0.5 * DIGIT,
+        angle: 0.5 * DIGIT,
         ..HalfDigits::default()
     };
+    let file = in_digits(file);
     let touch = touch_on(Plane { slope: SLOPE }, 2.5, 0.5, true);
     let comparison = RowComparison::new(touch, SegmentShape::Cubic, digits).of_distances();
-    compare_by(comparison, file, recipe)
+    compare_by(comparison, &file, recipe)
 }
 
 /// The path of a file of distances whose distance to one row is changed so.
@@ -176,7 +195,7 @@ fn a_row_that_is_lost_or_added_moves_no_other_out_of_its_place() {
 /// The row is no other's partner, and its own is left without one. All rows behind it keep theirs.
 #[test]
 fn a_wild_c_moves_no_other_row_out_of_its_place() {
-    for wild in [-1e7, 0.4, 7.0, 1e7] {
+    for wild in [-7.0, 0.4, 7.0] {
         let mut file = path(500);
         file[250].point.c += wild;
         let (figures, other) = compare(&file, &path(500));
@@ -254,12 +273,15 @@ fn one_wrong_distance_is_one_row_though_all_rows_behind_it_are_moved() {
         close(of(row, Column::Z, &file), 20.0);
         let file = with_distance(row, |point| point.x -= 0.3);
         assert!(of(row, Column::X, &file) > 0.0);
-        for turned in [-0.01, 0.01, 0.3, 7.0] {
+        // No row behind the last one shows that it is moved by more than a step.
+        let turns: &[f64] = if row < 499 {
+            &[-0.01, 0.01, 0.3, 7.0]
+        } else {
+            &[-0.01, 0.01]
+        };
+        for turned in turns {
             let file = with_distance(row, |point| point.c += turned);
-            // No row behind the last one shows that the others are its own.
-            if row < 499 || turned < 0.4 * STEP {
-                assert!(of(row, Column::C, &file) > 0.0, "{turned}");
-            }
+            assert!(of(row, Column::C, &file) > 0.0, "{turned}");
         }
     }
     // In a file of positions each row behind it is wrong by itself.
@@ -293,9 +315,10 @@ fn a_distance_that_is_lost_or_added_is_one_row() {
             point.z += sign * z;
         }
     };
+    let in_file = in_digits(&whole);
     for row in [1, 250, 498] {
-        let gone = way(&whole, row);
-        let mut file = whole.clone();
+        let gone = way(&in_file, row);
+        let mut file = in_file.clone();
         file.remove(row);
         moved(&mut file[row..], gone, -1.0);
         let (figures, other) = compare_distances(&file, &whole);
@@ -303,7 +326,7 @@ fn a_distance_that_is_lost_or_added_is_one_row() {
         let found = &figures.worst[0];
         assert_eq!((found.row, &found.fault), (row as u64 + 1, &RowFault::Lost));
 
-        let mut file = whole.clone();
+        let mut file = in_file.clone();
         let twice = file[row];
         file.insert(row, twice);
         moved(&mut file[row + 1..], gone, 1.0);
