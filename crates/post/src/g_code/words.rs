@@ -30,7 +30,7 @@ pub(crate) fn refuse_broken_numbers(code: &str) -> Result<(), String> {
             ')' => inside = false,
             _ if inside => {}
             c if c.is_ascii_whitespace() => is_apart = true,
-            '0'..='9' | '.' if is_apart && is_of_number(last) => {
+            c if is_apart && is_of_number(last) && is_of_number(c) => {
                 return Err(
                     "a blank stands within a number: this controller ends the number there"
                         .to_owned(),
