@@ -50,9 +50,9 @@ impl FromStr for TimeLimit {
         if text.trim() == "none" {
             return Ok(Self(None));
         }
-        let seconds = Quantity::Time
-            .parse(text)
-            .map_err(|error| format!("{error}; `none` switches the limit off"))?;
+        let seconds = Quantity::Time.parse(text).map_err(|error| {
+            format!("{error}: write a limit such as `90 s` or `5 min`; `none` switches it off")
+        })?;
         let limit = Duration::try_from_secs_f64(seconds).ok();
         match limit.filter(|limit| *limit >= SHORTEST) {
             Some(limit) => Ok(Self(Some(limit))),

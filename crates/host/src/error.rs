@@ -36,7 +36,13 @@ pub enum LoadError {
         /// The system's reason.
         source: io::Error,
     },
-    /// A plugin folder does not exist, or is a file.
+    /// A file stands where a plugin folder belongs.
+    #[error("{} is a file: give the folder in which it lies", path.display())]
+    FileForFolder {
+        /// The path as the caller gave it.
+        path: PathBuf,
+    },
+    /// A plugin folder does not exist.
     #[error("there is no plugin folder {}", path.display())]
     NoFolder {
         /// The path of the folder as the caller gave it.
@@ -284,7 +290,10 @@ impl LoadError {
 
     /// Whether a file or folder does not exist: then the call or the recipe is wrong.
     pub fn is_missing(&self) -> bool {
-        matches!(self, Self::NoFolder { .. } | Self::NoFile { .. })
+        matches!(
+            self,
+            Self::NoFolder { .. } | Self::FileForFolder { .. } | Self::NoFile { .. }
+        )
     }
 
     /// The file or folder of the error; for two strategies of one name the file that was added later.
@@ -293,6 +302,7 @@ impl LoadError {
             Self::Unreadable { path, .. }
             | Self::NoCopy { path, .. }
             | Self::NoFolder { path }
+            | Self::FileForFolder { path }
             | Self::NoFile { path }
             | Self::Refused { path, .. } => Some(path),
             Self::NotTogether { paths } => paths.first().map(PathBuf::as_path),

@@ -230,6 +230,7 @@ fn is_library_name(path: &Path) -> bool {
 fn folder_error(folder: &Path, source: io::Error) -> LoadError {
     let path = folder.to_owned();
     match source.kind() {
+        io::ErrorKind::NotADirectory if path.is_file() => LoadError::FileForFolder { path },
         io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => LoadError::NoFolder { path },
         _ => LoadError::Unreadable { path, source },
     }

@@ -151,8 +151,12 @@ impl Choice {
             self.name(),
             param.name
         );
+        let missing = match param.help.trim() {
+            "" => format!("`{}` is missing", param.name),
+            help => format!("`{}` is missing: {help}", param.name),
+        };
         Diagnostic::new(self.name.span.clone(), title)
-            .with_label(format!("`{}` is missing: {}", param.name, param.help))
+            .with_label(missing)
             .with_help(format!(
                 "add to {} a line such as: {} = {}",
                 heading(&self.path),

@@ -184,7 +184,7 @@ fn a_missing_folder_and_a_missing_file() {
 fn a_file_as_a_folder() {
     let (_folder, file) = file_of(b"");
     let error = Catalogue::new().add_folder(&file).unwrap_err();
-    assert!(matches!(error, LoadError::NoFolder { .. }), "{error}");
+    assert!(matches!(error, LoadError::FileForFolder { .. }), "{error}");
 }
 
 #[cfg(target_os = "linux")]

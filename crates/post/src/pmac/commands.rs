@@ -1,6 +1,6 @@
 //! What a header or a footer tells the controller besides the path.
 
-use super::PmacDialect;
+use super::dialect::PmacDialect;
 use crate::post::{Command, commands_of};
 
 /// The first of the programs 1000 to 1003, which the controller runs as G, M, T and D codes. To fill

@@ -31,6 +31,7 @@
 
 mod clock;
 mod commands;
+mod dialect;
 mod plain;
 mod read;
 mod scan;
@@ -46,6 +47,7 @@ use turnpath_core::{ParamInfo, Params};
 pub(crate) use clock::Clock;
 
 use commands::{commands, ends_program, leaves_program_open};
+pub(crate) use dialect::PmacDialect;
 use read::PvtGrammar;
 use segments::push_segments;
 use travel_read::read_travel;
@@ -158,15 +160,6 @@ pub(crate) const PVT_KEYS: &[ParamInfo] = &[
     HEADER.info(),
     FOOTER.info(),
 ];
-
-/// Which controller of the family reads the lines.
-#[derive(Debug)]
-pub(crate) enum PmacDialect {
-    /// Turbo PMAC: capital letters, and `CLEAR` empties a program.
-    Turbo,
-    /// Power PMAC: small letters, and `open prog` empties a program.
-    Power,
-}
 
 /// Lines in position-velocity-time mode.
 #[derive(Debug)]
