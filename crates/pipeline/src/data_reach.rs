@@ -10,8 +10,8 @@ use crate::{Chain, Preparation, Result};
 const RINGS: usize = 50;
 /// Angles on a ring.
 const ANGLES: usize = 360;
-/// A distance below this is rounding of the rim, mm.
-const SMALLEST: f64 = 1e-9;
+/// A distance from the data below this is rounding of their edge, mm.
+pub const ON_DATA: f64 = 1e-9;
 
 /// The place that lies farthest beyond the data.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +57,7 @@ pub fn data_reach(chain: &Chain, preparation: &Preparation) -> Result<Option<Dat
     let ends = [contact.inner, contact.outer].into_iter();
     let beyond = ends.filter(|radius| *radius < part.inner || *radius > part.outer);
     let overrun = farthest(chain, beyond)?;
-    let least = on_part.map_or(SMALLEST, |place| place.distance + SMALLEST);
+    let least = on_part.map_or(ON_DATA, |place| place.distance + ON_DATA);
     Ok(Some(DataReach {
         data,
         part: on_part,
@@ -79,7 +79,7 @@ fn farthest(chain: &Chain, rings: impl Iterator<Item = f64>) -> Result<Option<Fa
         let context = "for the distance from its data";
         answer.map_err(|error| chain.surface.failed(context, error))?;
         for (distance, (angle, _)) in distances.iter().zip(&turn) {
-            if *distance > most.map_or(SMALLEST, |most| most.distance) {
+            if *distance > most.map_or(ON_DATA, |most| most.distance) {
                 most = Some(Farthest {
                     distance: *distance,
                     radius,

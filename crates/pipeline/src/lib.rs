@@ -58,7 +58,7 @@ pub use aim::AIM;
 pub use attributed::NamedSurface;
 pub use chain::{Chain, Link};
 pub use composite::{PlacedSurface, PoseError, PosedSurface, SurfaceSum};
-pub use data_reach::{DataReach, Farthest, data_reach};
+pub use data_reach::{DataReach, Farthest, ON_DATA, data_reach};
 pub use error::{PipelineError, Result, RunError};
 pub use estimate::Estimate;
 pub use feed_cap::FeedCap;

@@ -13,11 +13,11 @@ use crate::unreached::Unreached;
 use crate::verdict::Verdict;
 use crate::wholeness::Wholeness;
 
-/// How much faster than its spindle the RMS of C's speed may be: rounding.
-const ROUNDED: f64 = 1.01;
-/// How much faster than its spindle C may turn anywhere. The digits of C and the steps of time make a short segment
-/// of a program faster by a quarter.
-const OF_A_SEGMENT: f64 = 2.0;
+/// Part of the spindle's speed that the RMS of C's speed may reach: a little is rounding.
+const RMS_ALLOWANCE: f64 = 1.01;
+/// Part of the spindle's speed that C may reach anywhere. A short segment of a program is faster than the spindle by
+/// what the digits of C and the steps of time round.
+const SEGMENT_ALLOWANCE: f64 = 2.0;
 
 /// What `verify` measured on a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -88,7 +88,7 @@ impl FileReport {
     fn keeps_spindle_speed(&self) -> Option<bool> {
         let limit = self.spindle_limit?;
         let speed = &self.path.axes.c.velocity;
-        Some(speed.rms <= ROUNDED * limit && speed.max <= OF_A_SEGMENT * limit)
+        Some(speed.rms <= RMS_ALLOWANCE * limit && speed.max <= SEGMENT_ALLOWANCE * limit)
     }
 
     /// Which tolerances and limits hold.

@@ -6,7 +6,7 @@ use std::path::Path;
 use turnpath_core::{Gradients, Scalar, StrategyError, SurfaceModel};
 use turnpath_files::Draft;
 use turnpath_host::Catalogue;
-use turnpath_pipeline::{Link, PipelineError};
+use turnpath_pipeline::{Link, ON_DATA, PipelineError};
 use turnpath_post::GridPoints;
 use turnpath_recipe::Recipe;
 
@@ -17,9 +17,6 @@ use crate::error::Error;
 use crate::input_files::refuse_as_output;
 use crate::plots::check_grid;
 use crate::surface::surface;
-
-/// A distance below this is rounding of the edge of the data, mm.
-const SMALLEST: f64 = 1e-9;
 
 /// What the points of a grid lack.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -196,7 +193,7 @@ impl Grid {
         let answer = surface.strategy.beyond_data(&x, &y, &mut distances);
         answer.map_err(|error| surface.failed("for its data", error))?;
         let of_part = x.iter().zip(&distances).filter(|(x, _)| is_of_part(x));
-        let beyond = of_part.filter(|(_, distance)| **distance > SMALLEST);
+        let beyond = of_part.filter(|(_, distance)| **distance > ON_DATA);
         let beyond: Vec<f64> = beyond.map(|(_, distance)| *distance).collect();
         let gaps = SagGaps {
             missing: z.iter().filter(|z| z.is_nan()).count(),

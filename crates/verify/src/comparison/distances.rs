@@ -20,7 +20,7 @@ pub(super) enum Kinship {
     Added,
 }
 
-/// The rows around the question which rows belong together.
+/// The next rows of both paths, and the last two that belong together.
 pub(super) struct Neighbourhood<'a> {
     /// The last rows that belong together, of the file and of the recipe's path.
     pub last: [&'a PathRow; 2],
@@ -31,7 +31,7 @@ pub(super) struct Neighbourhood<'a> {
 }
 
 impl Shift {
-    /// By how many last digits of the file a row of it lies beside its partner.
+    /// How far a row of the file lies beside its partner, rounded to a whole number of the file's last digits.
     pub fn between(file: &PathRow, remade: &PathRow, digits: &HalfDigits) -> Self {
         let (file, remade, half_digits) = (file.place(), remade.place(), digits.of_place());
         Self(std::array::from_fn(|axis| {
