@@ -429,6 +429,58 @@ fn a_file_that_is_cut_off_is_refused_wherever_it_ends() {
     bench.line("import lens.zmx --surface 2").ends(0);
 }
 
+/// Makers of lenses publish files whose last line has no end.
+#[test]
+fn a_file_may_end_as_it_likes_behind_the_number_of_configurations() {
+    let last = "MOFF 0 1 \"\" 0 0 0 1 1 0 0.0 \"\" 0";
+    import("MNUM 1 1\n", &format!("MNUM 1 1\n{last}"), "--surface 2").ends(0);
+    let said = refused("MNUM 1 1\n", last, "--surface 2");
+    assert!(
+        said[0].contains("the file ends within this line"),
+        "{said:?}"
+    );
+}
+
+/// Newer programs write lines before the surfaces that no list has. None of them is about a surface.
+#[test]
+fn unknown_settings_of_the_whole_design_are_notes() {
+    let header = "UNIT MM X W X CM MR CPMM\n";
+    let with = |line: &str| format!("{header}{line}\n");
+    let said = import(header, &with("AUTH Somebody\nLUID 23"), "--surface 2").ends(0);
+    assert_eq!(said.stderr, "");
+    let said = import(header, &with("WXYZ 1 0"), "--surface 2").ends(0);
+    let note = "line 5: WXYZ is not known: it stands before the surfaces";
+    assert!(said.stderr.contains(note), "{said}");
+    assert!(
+        said.stdout.contains("# Line 5: WXYZ is not known"),
+        "{said}"
+    );
+    for line in ["CURV 0.02", "PARM 2 1E-6", "wxyz 1", "CONFIGURATION 2"] {
+        let key = line.split(' ').next().unwrap();
+        let said = refused(header, &with(line), "--surface 2");
+        let wanted = format!("line 5: `{key}` is not known");
+        assert!(said[0].contains(&wanted), "{line}: {said:?}");
+    }
+}
+
+/// Operands of the merit function have hundreds of names and ten numbers.
+#[test]
+fn operands_of_the_merit_function_measure_whatever_their_name() {
+    let with = |line: &str| format!("TOL TOFF 0 0\n{line}\n");
+    let operand = with("WXYZ 3 1 0 0 0 0 114.8 1.0E+0 0 0");
+    let said = import("TOL TOFF 0 0\n", &operand, "--surface 2").ends(0);
+    assert_eq!(said.stderr, "");
+    for line in [
+        "WXYZ 3 1 0 0 0 0 0 0 0",
+        "WXYZ 3 1 0 0 0 0 0 0 0 0 0",
+        "WXYZ 3 1 0 0 0 0 0 0 0 nan",
+        "CRVT 2 1 -1.0E-2 0 0 0 1 1 0 0.0 \"\" 0",
+    ] {
+        let said = refused("TOL TOFF 0 0\n", &with(line), "--surface 2");
+        assert!(said[0].contains("is not known"), "{line}: {said:?}");
+    }
+}
+
 #[test]
 fn zernike_terms_that_end_on_the_part_are_refused() {
     let file = fs::read_to_string(lens("zernike.zmx")).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::aperture::{AS_ASKED_FOR, Aperture, read_aperture};
 use crate::error::{LensError, LensProblem, ProblemKind};
-use crate::keys::{is_of_surface, is_other_aperture, is_system};
+use crate::keys::{is_of_surface, is_operand, is_other_aperture, is_system, is_word};
 use crate::numbers::number;
 use crate::record::{Record, records, shown};
 use crate::shape::Shape;
@@ -85,7 +85,7 @@ impl LensText {
         let lines = Lines::sort(&self.0)?;
         let block = lines.choose(selection.number)?;
         let mut problems = lines.system_problems();
-        problems.extend(cut_off(&self.0));
+        problems.extend(lines.cut_off(&self.0));
         if block.number + 1 == lines.blocks.len() {
             let number = block.number;
             problems.push(ProblemKind::LastSurface { number }.at(block.line));
@@ -119,15 +119,6 @@ impl LensText {
 
 fn keep<T>(read: Result<T, LensProblem>, problems: &mut Vec<LensProblem>) -> Option<T> {
     read.map_err(|problem| problems.push(problem)).ok()
-}
-
-/// A last line without its end: what a copy that stopped half-way leaves. A number in it may lack
-/// digits.
-fn cut_off(text: &str) -> Option<LensProblem> {
-    // The character that ends a file on old systems stands behind the last line.
-    let whole = text.trim_end_matches('\u{1a}');
-    let ends = whole.is_empty() || whole.ends_with(['\n', '\r']);
-    (!ends).then(|| ProblemKind::CutOff.at(text.lines().count()))
 }
 
 /// What a surface's own lines have that is not known or not fixed.
@@ -232,12 +223,31 @@ impl<'a> Lines<'a> {
                 "MNUM" => ProblemKind::Configurations {
                     count: shown(first),
                 },
-                key if is_system(key) => return None,
+                key if is_system(key) || is_operand(record) => return None,
+                _ if self.is_setting(record) => return None,
                 key => ProblemKind::UnknownKey { key: shown(key) },
             };
             Some(kind.at(record.line))
         };
         self.system.iter().filter_map(problem).collect()
+    }
+
+    /// A last line without its end: what a copy that stopped half-way leaves. A number in it may lack digits.
+    /// Behind the number of configurations nothing can change a surface, so a file may end there as it likes.
+    fn cut_off(&self, text: &str) -> Option<LensProblem> {
+        // The character that ends a file on old systems stands behind the last line.
+        let whole = text.trim_end_matches('\u{1a}');
+        let ends = whole.is_empty() || whole.ends_with(['\n', '\r']);
+        let last = text.lines().count();
+        let is_count = |record: &Record<'_>| record.key == "MNUM" && record.line < last;
+        (!ends && !self.system.iter().any(is_count)).then(|| ProblemKind::CutOff.at(last))
+    }
+
+    /// Whether a line sets something of the whole system: it stands before the surfaces, and is none of
+    /// theirs. Of such lines only UNIT changes a shape.
+    fn is_setting(&self, record: &Record<'_>) -> bool {
+        let first = self.blocks.first().map_or(0, |block| block.line);
+        record.line < first && is_word(record.key) && !is_of_surface(record.key)
     }
 
     fn seen_from(
@@ -308,9 +318,24 @@ impl<'a> Lines<'a> {
             line: record.line,
             text: format!("{} {} is not in the recipe", record.key, shown(record.rest)),
         });
-        breaks.chain(of_edge).collect()
+        let settings = self.system.iter().filter(|record| {
+            let is_known = is_system(record.key) || LOOKED_AT.contains(&record.key);
+            !is_known && self.is_setting(record)
+        });
+        let settings = settings.map(|record| Note {
+            line: record.line,
+            text: format!(
+                "{} is not known: it stands before the surfaces, so it sets something of the \
+                 whole design and no shape",
+                shown(record.key)
+            ),
+        });
+        breaks.chain(of_edge).chain(settings).collect()
     }
 }
+
+/// Lines of the system that are looked at.
+const LOOKED_AT: [&str; 3] = ["UNIT", "MODE", "MNUM"];
 
 /// Part of a radius that is rounding.
 const ROUNDING: f64 = 1e-9;

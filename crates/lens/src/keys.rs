@@ -1,26 +1,38 @@
 //! Words that lines of a `.zmx` begin with and that cannot change the shape of a surface.
 //!
 //! The format has no published description. The lists are those of open readers: ray-optics
-//! (`zemax/zmxread.py`), optiland (`fileio/zemax`) and acorn (`zmx.tcl`).
+//! (`zemax/zmxread.py`), optiland (`fileio/zemax`) and acorn (`zmx.tcl`), and of the designs that these
+//! have for their tests.
+
+use crate::record::Record;
+
+/// Most letters of a word that a line begins with.
+const MOST_LETTERS: usize = 4;
+
+/// Numbers of an operand of the merit function: two of its own, four coordinates, target, weight, and two
+/// more.
+const NUMBERS_OF_OPERAND: usize = 10;
 
 /// Lines of the system: title, units of analyses, pupils, fields, wavelengths, glasses, ray aiming,
-/// polarisation, catalogues, tolerances, and operands of the merit function that only measure.
+/// polarisation, catalogues, tolerances, authors, marks of catalogue lenses, and operands of the merit
+/// function that only measure.
 const SYSTEM: &[&str] = &[
-    "BLNK", "COFN", "DMFS", "EDGE", "EFFL", "EFLX", "EFLY", "ENPD", "ENVD", "FCOM", "FLOA", "FNUM",
-    "FTYP", "FWGN", "FWGT", "GCAT", "GFAC", "GLRS", "GSTD", "HYPR", "IMAE", "ISNA", "LANG", "MNCA",
-    "MNCG", "MNEA", "MNEG", "MOFF", "MXCA", "MXCG", "MXEA", "MXEG", "NAME", "NOTE", "NSCD", "OBNA",
-    "OMMA", "OPDX", "OPGT", "OPLT", "PFIL", "PICB", "PMAG", "POLS", "PUPD", "PUSH", "PWAV", "PZUP",
-    "RAIM", "REAX", "REAY", "REAZ", "RGLA", "ROPD", "RSCE", "RSCH", "SDMA", "STEL", "TCED", "TCMM",
-    "TOL", "TOLE", "TOTR", "TRAC", "TTHI", "UDAD", "VANN", "VCXN", "VCYN", "VDSZ", "VDXN", "VDYN",
-    "VERS", "WAVE", "WAVL", "WAVM", "WAVN", "WFNO", "WWGN", "WWGT", "XFIE", "XFLD", "XFLN", "YFIE",
-    "YFLD", "YFLN", "ZVAN", "ZVCX", "ZVCY", "ZVDX", "ZVDY",
+    "AUTH", "BLNK", "COFN", "DBDT", "DMFS", "EDGE", "EERA", "EFFL", "EFLX", "EFLY", "ENPD", "ENVD",
+    "FCOM", "FLOA", "FNUM", "FTYP", "FWGN", "FWGT", "GCAT", "GFAC", "GLRS", "GSTD", "HYPR", "IMAE",
+    "ISNA", "IWDP", "LANG", "LUID", "MNCA", "MNCG", "MNEA", "MNEG", "MOFF", "MXCA", "MXCG", "MXEA",
+    "MXEG", "NAME", "NOTE", "NSCD", "OBNA", "OMMA", "OPDX", "OPGT", "OPLT", "PFIL", "PICB", "PMAG",
+    "POLS", "PUPD", "PUSH", "PWAV", "PZUP", "RAIM", "RCMF", "REAX", "REAY", "REAZ", "RGLA", "ROPD",
+    "RSCE", "RSCH", "SDMA", "STEL", "STUD", "TCED", "TCMM", "TOL", "TOLE", "TOTR", "TRAC", "TTHI",
+    "UDAD", "VANN", "VCXN", "VCYN", "VDSZ", "VDXN", "VDYN", "VERS", "WAVE", "WAVL", "WAVM", "WAVN",
+    "WFNO", "WWGN", "WWGT", "XFIE", "XFLD", "XFLN", "YFIE", "YFLD", "YFLN", "ZVAN", "ZVCX", "ZVCY",
+    "ZVDX", "ZVDY",
 ];
 
-/// Lines of a surface: glass, coating, thickness, drawing, stop, colours, physical optics, and marks
-/// of variables.
+/// Lines of a surface: glass, coating, thickness, drawing, stop, colours, physical optics, its number in
+/// the program, the width between its edge and that of the blank, and marks of variables.
 const SURFACE: &[&str] = &[
-    "BLNK", "COAT", "COMM", "DISZ", "EDGE", "FIMP", "GLAS", "HIDE", "MAZH", "MEMA", "MIRR", "POPS",
-    "PZUP", "RSCE", "SCOL", "SLAB", "STOP", "TCED", "VCON", "VDSZ", "VPAR",
+    "BLNK", "COAT", "COMM", "DISZ", "EDGE", "FIMP", "GLAS", "HIDE", "MAZH", "MEMA", "MIRR", "OEMA",
+    "POPS", "PZUP", "RSCE", "SCOL", "SLAB", "SSID", "STOP", "TCED", "VCON", "VDSZ", "VPAR",
 ];
 
 /// Lines of a surface that say where its edge is.
@@ -39,6 +51,22 @@ const SHAPE: &[&str] = &[
 /// Whether a line of the system is known and cannot change a shape.
 pub fn is_system(key: &str) -> bool {
     SYSTEM.contains(&key)
+}
+
+/// Whether a word is of the kind that lines begin with.
+pub fn is_word(key: &str) -> bool {
+    let is_letter = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit();
+    (2..=MOST_LETTERS).contains(&key.len()) && key.chars().all(is_letter)
+}
+
+/// Whether a line is an operand of the merit function, whatever its name: nothing but numbers, as many as
+/// such operands have. They measure. Values of several configurations, which may change a shape, have a text
+/// in quotes among their numbers.
+pub fn is_operand(record: &Record<'_>) -> bool {
+    let is_number = |word: &str| word.parse::<f64>().is_ok_and(f64::is_finite);
+    is_word(record.key)
+        && record.words().count() == NUMBERS_OF_OPERAND
+        && record.words().all(is_number)
 }
 
 /// Whether a line has an edge that is not a circle.
