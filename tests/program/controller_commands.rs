@@ -248,3 +248,52 @@ fn verify_names_what_stands_there_once_more_and_a_footer_behind_a_long_header() 
     assert!(said.stdout.contains(&says), "{says}: {said}");
     assert_eq!(said.stdout.matches(": M9=1, which").count(), 50, "{said}");
 }
+
+/// A program that lost its end stays open, and one that lost its units or its plane plays another path.
+#[test]
+fn verify_names_what_a_program_lacks_of_its_recipe() {
+    let posts = [
+        "pmac-pvt",
+        "siemens-840d-poly",
+        "beckhoff-g93",
+        "power-pmac-pvt",
+    ];
+    let names = posts.map(|post| format!("\"{post}\"")).join(", ");
+    let bench = Bench::with(&format!("{SADDLE}\n[output]\nposts = [{names}]\n"));
+    bench.line("run recipe.toml -o out").ends(0);
+    for (file, command, template) in [
+        ("recipe.pmc", "OPEN PROG 1 CLEAR", "header"),
+        ("recipe.pmc", "CLOSE", "footer"),
+        ("recipe.mpf", "M30", "footer"),
+        ("recipe.cnc", "M30", "footer"),
+        ("recipe.ppmc", "close", "footer"),
+    ] {
+        let text = bench.read(format!("out/{file}"));
+        let verify = format!("verify recipe.toml {file}");
+        bench.write(file, &text);
+        let said = bench.line(&verify).ends(0);
+        assert!(!said.stdout.contains("does not stand there"), "{said}");
+        let line = format!("{command}\n");
+        let at = match template {
+            "header" => text.find(&line).unwrap(),
+            _ => text.rfind(&line).unwrap(),
+        };
+        let without = format!("{}{}", &text[..at], &text[at + line.len()..]);
+        bench.write(file, without);
+        let said = bench.line(&verify).ends(0);
+        let says = format!("of the recipe's {template}, does not stand there");
+        let lines = said.stdout.lines().filter(|line| line.contains(&says));
+        let lines: Vec<&str> = lines.collect();
+        assert!(
+            matches!(lines.as_slice(), [only] if only.contains(command)),
+            "{file}, {command}: {said}"
+        );
+        let report = bench.line(&format!("{verify} --format json")).ends(0);
+        let missing = &report.json()["missing_commands"];
+        assert_eq!(missing.as_array().map(Vec::len), Some(1), "{missing}");
+        assert_eq!(
+            (&missing[0]["command"], &missing[0]["template"]),
+            (&command.into(), &template.into())
+        );
+    }
+}

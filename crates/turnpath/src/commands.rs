@@ -60,14 +60,23 @@ fn other_header(recipe: &Recipe, post: &Post) -> Option<Spanned<String>> {
     Some(Spanned { value, span })
 }
 
-/// What the header and the footer of a program in a file tell the controller, where the templates of its recipe
-/// do not and it is not known to be harmless. Lines are those of the file. A command with a placeholder is none
-/// of the templates' once it has its value.
-pub fn commands_of_file(
+/// How the header and the footer of a program in a file differ from those of its recipe.
+#[derive(Debug, Default)]
+pub struct CommandDifferences {
+    /// What they tell the controller, where the recipe's templates do not and it is not known to be harmless.
+    /// Lines are those of the file. A command with a placeholder is none of the templates' once it has its value.
+    pub foreign: Vec<ControllerCommand>,
+    /// What the recipe's templates tell the controller, and the file does not. Lines are those of the template.
+    /// Commands with placeholders are left out.
+    pub missing: Vec<ControllerCommand>,
+}
+
+/// Compares the header and the footer of a program in a file with those of its recipe.
+pub fn command_differences(
     recipe: &Recipe,
     post: &Post,
     around: &AroundPath,
-) -> Vec<ControllerCommand> {
+) -> CommandDifferences {
     let settings = recipe.settings_of(post.name);
     let own_header = settings.and_then(|settings| settings.header.clone());
     let own_footer = settings.and_then(|settings| settings.footer.clone());
@@ -84,12 +93,30 @@ pub fn commands_of_file(
             around.before_footer,
         ),
     ];
-    let commands = parts.into_iter().flat_map(|(name, found, own, lines)| {
-        let found = judged(post, name, found);
-        let foreign = beside_own(found, judged(post, name, &own)).take(MOST_OF_A_TEMPLATE);
-        foreign.map(move |one| of_command(post, name, one, lines))
-    });
-    commands.collect()
+    let mut differences = CommandDifferences::default();
+    for (name, found, own, lines) in parts {
+        let (found, own) = (judged(post, name, found), judged(post, name, &own));
+        let missing = missing_of(&own, &found).take(MOST_OF_A_TEMPLATE);
+        let missing = missing.map(|one| of_command(post, name, one.clone(), 0));
+        differences.missing.extend(missing);
+        let foreign = beside_own(found, own).take(MOST_OF_A_TEMPLATE);
+        let foreign = foreign.map(|one| of_command(post, name, one, lines));
+        differences.foreign.extend(foreign);
+    }
+    differences
+}
+
+/// The recipe's commands for which none stands in the file, in their order.
+fn missing_of<'a>(own: &'a [Command], found: &'a [Command]) -> impl Iterator<Item = &'a Command> {
+    let mut rest = found;
+    let fixed = own.iter().filter(|own| !own.text.contains('{'));
+    fixed.filter(move |own| {
+        let place = rest.iter().position(|one| one.text == own.text);
+        if let Some(place) = place {
+            rest = &rest[place + 1..];
+        }
+        place.is_none()
+    })
 }
 
 /// The commands that are not known to be harmless, without those of the recipe: each of these stands for one

@@ -33,3 +33,16 @@ pub fn commands_of_file(commands: &[ControllerCommand]) -> String {
     };
     commands.iter().map(of_command).collect()
 }
+
+/// A line for each command that a recipe has and its file has not.
+pub fn missing_commands(commands: &[ControllerCommand]) -> String {
+    let of_command = |one: &ControllerCommand| {
+        let (template, command) = (&one.template, printable_line(&one.command));
+        let said = format!(
+            "{command}, line {} of the recipe's {template}, does not stand there",
+            one.line
+        );
+        line(template, said)
+    };
+    commands.iter().map(of_command).collect()
+}

@@ -9,7 +9,7 @@ use crate::unit;
 use crate::wholeness::Wholeness;
 
 use super::anomalies::anomalies;
-use super::commands::commands_of_file;
+use super::commands::{commands_of_file, missing_commands};
 use super::lead::lead;
 use super::numbers::{grouped, line, millimetres, significant};
 use super::path::path;
@@ -34,6 +34,7 @@ pub fn file(report: &FileReport) -> String {
     }
     text += &anomalies(&report.anomalies, report.rows);
     text += &commands_of_file(&report.controller_commands);
+    text += &missing_commands(&report.missing_commands);
     if let Some(servos) = &report.path.servo {
         text += &servo(servos, report.path.tolerance.servo, verdict.servo);
     }

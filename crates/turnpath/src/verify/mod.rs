@@ -21,7 +21,7 @@ use turnpath_report as report;
 use turnpath_report::FileReport;
 use turnpath_verify::{AnomalyDetector, FirstTouch, ServoMeter, Subject, unreached};
 
-use crate::commands::commands_of_file;
+use crate::commands::{CommandDifferences, command_differences};
 use crate::data_files::DataFiles;
 use crate::diagnosis::of_measure;
 use crate::error::Error;
@@ -161,6 +161,7 @@ impl<'a> Target<'a> {
         };
         let anomalies = self.anomalies(file, &played, meters.anomalies, observer)?;
         let (reach, unreached) = (self.reach(range), self.unreached(meter.touch())?);
+        let commands = self.command_differences(file)?;
         let report = FileReport {
             format: report::FORMAT,
             name: recipe.name.clone(),
@@ -177,21 +178,20 @@ impl<'a> Target<'a> {
             anomalies,
             unreached,
             result: result_check(&file.path, recipe),
-            controller_commands: self.controller_commands(file)?,
+            controller_commands: commands.foreign,
+            missing_commands: commands.missing,
         };
         Ok(report.with_verdict())
     }
 
-    /// What the file tells the controller before its path and behind it, if it is a program.
-    fn controller_commands(
-        &self,
-        file: &SourceFile,
-    ) -> Result<Vec<report::ControllerCommand>, Error> {
+    /// How what the file tells the controller before its path and behind it differs from the recipe, if it is
+    /// a program.
+    fn command_differences(&self, file: &SourceFile) -> Result<CommandDifferences, Error> {
         let Some(layout) = file.program else {
-            return Ok(Vec::new());
+            return Ok(CommandDifferences::default());
         };
         let around = layout.around_path(&file.path)?;
-        Ok(commands_of_file(self.recipe, layout.post, &around))
+        Ok(command_differences(self.recipe, layout.post, &around))
     }
 
     /// Whether the file's path goes from its beginning to its end, by the file itself.
