@@ -445,39 +445,75 @@ fn a_file_may_end_as_it_likes_behind_the_number_of_configurations() {
 #[test]
 fn unknown_settings_of_the_whole_design_are_notes() {
     let header = "UNIT MM X W X CM MR CPMM\n";
-    let with = |line: &str| format!("{header}{line}\n");
-    let said = import(header, &with("AUTH Somebody\nLUID 23"), "--surface 2").ends(0);
+    let with = |lines: &str| format!("{header}{lines}\n");
+    let known = "AUTH Somebody\nIWDP 0\nSTUD 1\nLUID 23\nEERA 0 0 0 10 10\nDBDT 1 4 1 0 0 0 0";
+    let said = import(header, &with(known), "--surface 2").ends(0);
     assert_eq!(said.stderr, "");
-    let said = import(header, &with("WXYZ 1 0"), "--surface 2").ends(0);
+    // Each word is named once.
+    let said = import(header, &with("WXYZ 1 0\nWXYZ 2 0"), "--surface 2").ends(0);
     let note = "line 5: WXYZ is not known: it stands before the surfaces";
     assert!(said.stderr.contains(note), "{said}");
+    assert_eq!(said.stderr.matches("WXYZ").count(), 1, "{said}");
     assert!(
         said.stdout.contains("# Line 5: WXYZ is not known"),
         "{said}"
     );
-    for line in ["CURV 0.02", "PARM 2 1E-6", "wxyz 1", "CONFIGURATION 2"] {
-        let key = line.split(' ').next().unwrap();
+    for line in [
+        "CURV 0.02",
+        "CURV 0.02 0 0 0 0 0 0 0 0 0",
+        "  WXYZ 1",
+        "PARM 2 1E-6",
+        "wxyz 1",
+        "W 1",
+        "1234 5",
+        "CONFIGURATION 2",
+    ] {
+        let key = line.split_whitespace().next().unwrap();
         let said = refused(header, &with(line), "--surface 2");
         let wanted = format!("line 5: `{key}` is not known");
         assert!(said[0].contains(&wanted), "{line}: {said:?}");
     }
+    // What stands in place of the mode may be the mode, misspelt.
+    let said = refused("MODE SEQ", "MODF NSC", "--surface 2");
+    assert!(said[0].contains("line 2: `MODF` is not known"), "{said:?}");
 }
 
-/// Operands of the merit function have hundreds of names and ten numbers.
+#[test]
+fn the_number_of_a_surface_and_the_width_of_its_blank_change_no_shape() {
+    let lines = "SURF 2\n  SSID 0\n  OEMA 0.75 0 0 0 1 \"\"\n";
+    let said = import("SURF 2\n", lines, "--surface 2").ends(0);
+    assert_eq!(said.stderr, "");
+}
+
+/// Operands of the merit function have hundreds of names, ten numbers, and one place.
 #[test]
 fn operands_of_the_merit_function_measure_whatever_their_name() {
-    let with = |line: &str| format!("TOL TOFF 0 0\n{line}\n");
-    let operand = with("WXYZ 3 1 0 0 0 0 114.8 1.0E+0 0 0");
-    let said = import("TOL TOFF 0 0\n", &operand, "--surface 2").ends(0);
+    let behind = |line: &str| {
+        (
+            "TOL TOFF 0 0\n",
+            format!("{line}\nRCMF 25 0\nTOL TOFF 0 0\n"),
+        )
+    };
+    let (tolerances, operand) = behind("WXYZ 3 1 0 0 0 0 114.8 1.0E+0 0 0");
+    let said = import(tolerances, &operand, "--surface 2").ends(0);
     assert_eq!(said.stderr, "");
-    for line in [
-        "WXYZ 3 1 0 0 0 0 0 0 0",
-        "WXYZ 3 1 0 0 0 0 0 0 0 0 0",
-        "WXYZ 3 1 0 0 0 0 0 0 0 nan",
-        "CRVT 2 1 -1.0E-2 0 0 0 1 1 0 0.0 \"\" 0",
+    let ten = "3 1 0 0 0 0 0 0 0 0";
+    for (passage, with) in [
+        behind("WXYZ 3 1 0 0 0 0 0 0 0"),
+        behind("WXYZ 3 1 0 0 0 0 0 0 0 0 0"),
+        behind("WXYZ 3 1 0 0 0 0 0 0 0 nan"),
+        behind(&format!("wxyz {ten}")),
+        // Behind the tolerances stand configurations, whose values change shapes.
+        ("TOL TOFF 0 0\n", format!("TOL TOFF 0 0\nCRVT {ten}\n")),
+        ("MNUM 1 1\n", format!("MNUM 1 1\nCRVT {ten}\n")),
+        // Between the surfaces a line may be one of theirs.
+        ("SURF 3\n", format!("WXYZ {ten}\nSURF 3\n")),
+        ("SURF 3\n", format!("LUID 1\n  CONI {ten}\nSURF 3\n")),
+        ("SURF 3\n", format!("LUID 1\n  IGNR {ten}\nSURF 3\n")),
+        ("SURF 0\n", format!("CONI {ten}\nSURF 0\n")),
     ] {
-        let said = refused("TOL TOFF 0 0\n", &with(line), "--surface 2");
-        assert!(said[0].contains("is not known"), "{line}: {said:?}");
+        let said = refused(passage, &with, "--surface 2");
+        assert!(said[0].contains("is not known"), "{with}: {said:?}");
     }
 }
 

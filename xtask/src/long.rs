@@ -112,11 +112,6 @@ const CHECKS: &[Check] = &[
         run: Run::Steps(queues),
     },
     Check {
-        name: "bare",
-        what: "`cargo clippy` of the program without its built-in strategies",
-        run: Run::Step(bare),
-    },
-    Check {
         name: "fuzz",
         what: "`cargo xtask fuzz`, a minute for each target",
         run: Run::Steps(|| fuzz::run_targets(&[])),
@@ -240,14 +235,6 @@ fn random_input() -> Outcome {
         .args(["--lib", "--test", "all"])
         .env("PROPTEST_CASES", RANDOM_CASES.max(cases).to_string());
     run(tests)
-}
-
-/// The lints of the program whose catalogue is empty; a test builds and runs it.
-fn bare() -> Outcome {
-    let package = ["-p", "turnpath-cli", "--no-default-features"];
-    let mut lints = cargo(&["clippy", "--locked"]);
-    lints.args(package).args(["--", "-D", "warnings"]);
-    run(lints)
 }
 
 /// The kept output of LinuxCNC's interpreter is what it says of the program that turnpath writes.

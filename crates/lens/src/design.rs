@@ -2,13 +2,14 @@
 
 use crate::aperture::{AS_ASKED_FOR, Aperture, read_aperture};
 use crate::error::{LensError, LensProblem, ProblemKind};
-use crate::keys::{is_of_surface, is_operand, is_other_aperture, is_system, is_word};
+use crate::keys::{is_of_surface, is_other_aperture};
 use crate::numbers::number;
 use crate::record::{Record, records, shown};
 use crate::shape::Shape;
 use crate::shape_reader::{ReadShape, read_shape};
 use crate::side::{Side, cut_from};
 use crate::surface_block::SurfaceBlock;
+use crate::system_lines::SystemLines;
 use crate::text::decode;
 
 /// What the caller says of the surface.
@@ -63,7 +64,7 @@ pub struct LensText(String);
 
 /// The lines of a file, sorted.
 struct Lines<'a> {
-    system: Vec<Record<'a>>,
+    system: SystemLines<'a>,
     blocks: Vec<SurfaceBlock<'a>>,
 }
 
@@ -84,8 +85,8 @@ impl LensText {
     pub fn surface(&self, selection: &Selection) -> Result<DesignSurface, LensError> {
         let lines = Lines::sort(&self.0)?;
         let block = lines.choose(selection.number)?;
-        let mut problems = lines.system_problems();
-        problems.extend(lines.cut_off(&self.0));
+        let mut problems = lines.system.problems();
+        problems.extend(lines.system.cut_off(&self.0));
         if block.number + 1 == lines.blocks.len() {
             let number = block.number;
             problems.push(ProblemKind::LastSurface { number }.at(block.line));
@@ -159,10 +160,11 @@ impl<'a> Lines<'a> {
                 None => system.push(record),
             }
         }
-        match blocks.is_empty() {
-            true => Err(ProblemKind::NoSurfaces.of_file().into()),
-            false => Ok(Self { system, blocks }),
-        }
+        let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else {
+            return Err(ProblemKind::NoSurfaces.of_file().into());
+        };
+        let system = SystemLines::new(system, (first.line, last.line));
+        Ok(Self { system, blocks })
     }
 
     /// The surface of this number, or the only one that is bent.
@@ -189,7 +191,7 @@ impl<'a> Lines<'a> {
 
     /// The file's unit, mm.
     fn unit(&self) -> Result<f64, LensProblem> {
-        let mut records = self.system.iter().filter(|record| record.key == "UNIT");
+        let mut records = self.system.of("UNIT");
         let record = records
             .next()
             .ok_or_else(|| ProblemKind::NoUnit.of_file())?;
@@ -210,46 +212,6 @@ impl<'a> Lines<'a> {
         })
     }
 
-    fn system_problems(&self) -> Vec<LensProblem> {
-        let problem = |record: &Record<'_>| {
-            let first = record.words().next().unwrap_or_default();
-            let kind = match record.key {
-                "UNIT" => return None,
-                "MODE" if first == "SEQ" => return None,
-                "MODE" => ProblemKind::Mode {
-                    found: shown(first),
-                },
-                "MNUM" if first == "1" => return None,
-                "MNUM" => ProblemKind::Configurations {
-                    count: shown(first),
-                },
-                key if is_system(key) || is_operand(record) => return None,
-                _ if self.is_setting(record) => return None,
-                key => ProblemKind::UnknownKey { key: shown(key) },
-            };
-            Some(kind.at(record.line))
-        };
-        self.system.iter().filter_map(problem).collect()
-    }
-
-    /// A last line without its end: what a copy that stopped half-way leaves. A number in it may lack digits.
-    /// Behind the number of configurations nothing can change a surface, so a file may end there as it likes.
-    fn cut_off(&self, text: &str) -> Option<LensProblem> {
-        // The character that ends a file on old systems stands behind the last line.
-        let whole = text.trim_end_matches('\u{1a}');
-        let ends = whole.is_empty() || whole.ends_with(['\n', '\r']);
-        let last = text.lines().count();
-        let is_count = |record: &Record<'_>| record.key == "MNUM" && record.line < last;
-        (!ends && !self.system.iter().any(is_count)).then(|| ProblemKind::CutOff.at(last))
-    }
-
-    /// Whether a line sets something of the whole system: it stands before the surfaces, and is none of
-    /// theirs. Of such lines only UNIT changes a shape.
-    fn is_setting(&self, record: &Record<'_>) -> bool {
-        let first = self.blocks.first().map_or(0, |block| block.line);
-        record.line < first && is_word(record.key) && !is_of_surface(record.key)
-    }
-
     fn seen_from(
         &self,
         block: &SurfaceBlock<'a>,
@@ -266,7 +228,7 @@ impl<'a> Lines<'a> {
             }
         };
         let notes = self.notes(block, &aperture);
-        let title = self.system.iter().find(|record| record.key == "NAME");
+        let title = self.system.of("NAME").next();
         let title = title.map(Record::text).filter(|text| !text.is_empty());
         DesignSurface {
             number: block.number,
@@ -318,24 +280,16 @@ impl<'a> Lines<'a> {
             line: record.line,
             text: format!("{} {} is not in the recipe", record.key, shown(record.rest)),
         });
-        let settings = self.system.iter().filter(|record| {
-            let is_known = is_system(record.key) || LOOKED_AT.contains(&record.key);
-            !is_known && self.is_setting(record)
-        });
-        let settings = settings.map(|record| Note {
+        let settings = self.system.unknown_settings().map(|record| Note {
             line: record.line,
             text: format!(
-                "{} is not known: it stands before the surfaces, so it sets something of the \
-                 whole design and no shape",
+                "{} is not known: it stands before the surfaces, so it is taken to change no shape",
                 shown(record.key)
             ),
         });
         breaks.chain(of_edge).chain(settings).collect()
     }
 }
-
-/// Lines of the system that are looked at.
-const LOOKED_AT: [&str; 3] = ["UNIT", "MODE", "MNUM"];
 
 /// Part of a radius that is rounding.
 const ROUNDING: f64 = 1e-9;

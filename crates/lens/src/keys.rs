@@ -4,14 +4,8 @@
 //! (`zemax/zmxread.py`), optiland (`fileio/zemax`) and acorn (`zmx.tcl`), and of the designs that these
 //! have for their tests.
 
-use crate::record::Record;
-
 /// Most letters of a word that a line begins with.
 const MOST_LETTERS: usize = 4;
-
-/// Numbers of an operand of the merit function: two of its own, four coordinates, target, weight, and two
-/// more.
-const NUMBERS_OF_OPERAND: usize = 10;
 
 /// Lines of the system: title, units of analyses, pupils, fields, wavelengths, glasses, ray aiming,
 /// polarisation, catalogues, tolerances, authors, marks of catalogue lenses, and operands of the merit
@@ -29,7 +23,7 @@ const SYSTEM: &[&str] = &[
 ];
 
 /// Lines of a surface: glass, coating, thickness, drawing, stop, colours, physical optics, its number in
-/// the program, the width between its edge and that of the blank, and marks of variables.
+/// the program, the width between its edge and the blank's, and marks of variables.
 const SURFACE: &[&str] = &[
     "BLNK", "COAT", "COMM", "DISZ", "EDGE", "FIMP", "GLAS", "HIDE", "MAZH", "MEMA", "MIRR", "OEMA",
     "POPS", "PZUP", "RSCE", "SCOL", "SLAB", "SSID", "STOP", "TCED", "VCON", "VDSZ", "VPAR",
@@ -53,20 +47,12 @@ pub fn is_system(key: &str) -> bool {
     SYSTEM.contains(&key)
 }
 
-/// Whether a word is of the kind that lines begin with.
+/// Whether a word is like those of the lists: two to four capitals, or digits behind the first one.
 pub fn is_word(key: &str) -> bool {
-    let is_letter = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit();
-    (2..=MOST_LETTERS).contains(&key.len()) && key.chars().all(is_letter)
-}
-
-/// Whether a line is an operand of the merit function, whatever its name: nothing but numbers, as many as
-/// such operands have. They measure. Values of several configurations, which may change a shape, have a text
-/// in quotes among their numbers.
-pub fn is_operand(record: &Record<'_>) -> bool {
-    let is_number = |word: &str| word.parse::<f64>().is_ok_and(f64::is_finite);
-    is_word(record.key)
-        && record.words().count() == NUMBERS_OF_OPERAND
-        && record.words().all(is_number)
+    let is_like_them = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit();
+    (2..=MOST_LETTERS).contains(&key.len())
+        && key.starts_with(|c: char| c.is_ascii_uppercase())
+        && key.chars().all(is_like_them)
 }
 
 /// Whether a line has an edge that is not a circle.

@@ -34,6 +34,7 @@ mod shape_reader;
 mod side;
 mod slots;
 mod surface_block;
+mod system_lines;
 mod text;
 
 pub use aperture::Aperture;
