@@ -272,7 +272,7 @@ fn verify_names_what_a_program_lacks_of_its_recipe() {
         let verify = format!("verify recipe.toml {file}");
         bench.write(file, &text);
         let said = bench.line(&verify).ends(0);
-        assert!(!said.stdout.contains("does not stand there"), "{said}");
+        assert!(!said.stdout.contains(" is missing: line"), "{said}");
         let line = format!("{command}\n");
         let at = match template {
             "header" => text.find(&line).unwrap(),
@@ -281,7 +281,7 @@ fn verify_names_what_a_program_lacks_of_its_recipe() {
         let without = format!("{}{}", &text[..at], &text[at + line.len()..]);
         bench.write(file, without);
         let said = bench.line(&verify).ends(0);
-        let says = format!("of the recipe's {template}, does not stand there");
+        let says = format!("of the recipe's {template} has it");
         let lines = said.stdout.lines().filter(|line| line.contains(&says));
         let lines: Vec<&str> = lines.collect();
         assert!(

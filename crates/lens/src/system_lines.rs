@@ -44,6 +44,7 @@ pub struct SystemLines<'a> {
     surfaces: (usize, usize),
     /// The line behind the operands of the merit function; 0 without one.
     end_of_operands: usize,
+    /// Whether a line says the mode of the design.
     says_mode: bool,
 }
 
@@ -64,7 +65,7 @@ impl<'a> SystemLines<'a> {
         self.lines.iter().filter(move |record| record.key == key)
     }
 
-    /// What is not known, or says that the design is of a kind that cannot be read.
+    /// The lines that are not known, and those that say that the design cannot be read.
     pub fn problems(&self) -> Vec<LensProblem> {
         let problem = |record: &Record<'_>| {
             let first = record.words().next().unwrap_or_default();

@@ -66,8 +66,7 @@ pub struct FileReport {
     /// and it is not known to be harmless. Lines are those of the file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub controller_commands: Vec<ControllerCommand>,
-    /// What the recipe's header and footer tell the controller, and those of a program do not. Lines are those
-    /// of the templates.
+    /// Commands of the recipe's header and footer that a program lacks. Lines are those of the templates.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub missing_commands: Vec<ControllerCommand>,
     /// Which tolerances and limits hold.

@@ -63,10 +63,10 @@ fn other_header(recipe: &Recipe, post: &Post) -> Option<Spanned<String>> {
 /// How the header and the footer of a program in a file differ from those of its recipe.
 #[derive(Debug, Default)]
 pub struct CommandDifferences {
-    /// What they tell the controller, where the recipe's templates do not and it is not known to be harmless.
+    /// Commands of the file that the recipe's templates do not have, and that are not known to be harmless.
     /// Lines are those of the file. A command with a placeholder is none of the templates' once it has its value.
     pub foreign: Vec<ControllerCommand>,
-    /// What the recipe's templates tell the controller, and the file does not. Lines are those of the template.
+    /// Commands of the recipe's templates that the file does not have. Lines are those of the template.
     /// Commands with placeholders are left out.
     pub missing: Vec<ControllerCommand>,
 }

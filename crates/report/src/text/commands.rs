@@ -39,7 +39,7 @@ pub fn missing_commands(commands: &[ControllerCommand]) -> String {
     let of_command = |one: &ControllerCommand| {
         let (template, command) = (&one.template, printable_line(&one.command));
         let said = format!(
-            "{command}, line {} of the recipe's {template}, does not stand there",
+            "{command} is missing: line {} of the recipe's {template} has it",
             one.line
         );
         line(template, said)
