@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use tempfile::Builder;
 
+use crate::contents::Contents;
 use crate::file_error::FileError;
 use crate::gate;
-use crate::hashed_file::{Contents, HashedFile};
+use crate::hashed_file::HashedFile;
 use crate::operation::{Operation, perform};
 use crate::temporary::Temporary;
 
@@ -104,6 +105,12 @@ impl Draft {
             file: BufWriter::with_capacity(BUFFER, file),
             name,
         }
+    }
+
+    /// From now on another thread reads the file back while it is written. That is for a large file that is
+    /// written at once: [`finish`](Self::finish) then has little left to read.
+    pub fn read_while_written(&mut self) {
+        self.file.get_mut().read_while_written();
     }
 
     /// The path that the whole file will have.

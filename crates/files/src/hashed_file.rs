@@ -1,75 +1,17 @@
-//! Bytes and their sums: a fast one as a file is written, and the SHA-256 as it reads back.
+//! A file with a fast sum of what is written, and the SHA-256 of what reads back.
 
 use std::fmt;
 use std::fs::File;
-use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::PathBuf;
 use std::thread;
 
-use sha2::{Digest, Sha256};
 use twox_hash::xxhash3_128;
 
+use crate::contents::Contents;
+use crate::following_reader::FollowingReader;
 use crate::operation::{Operation, announce, perform, uninterrupted};
-
-/// Bytes of a file that are read at once.
-const BUFFER: usize = 1 << 16;
-
-/// How many bytes a file has, and their hash.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Contents {
-    /// The number of bytes.
-    pub bytes: u64,
-    /// Their SHA-256, in lower-case hexadecimal.
-    pub sha256: String,
-}
-
-impl Contents {
-    /// Those of a file, which is read piece by piece.
-    ///
-    /// # Errors
-    /// When the file cannot be read.
-    pub fn of_file(path: &Path) -> io::Result<Self> {
-        let mut sum = Sum::default();
-        for_each_piece(path, |piece| sum.add(piece))?;
-        Ok(sum.contents())
-    }
-}
-
-/// What a file has so far.
-#[derive(Debug, Default)]
-struct Sum {
-    hasher: Sha256,
-    bytes: u64,
-}
-
-impl Sum {
-    fn add(&mut self, piece: &[u8]) {
-        self.hasher.update(piece);
-        self.bytes += piece.len() as u64;
-    }
-
-    fn contents(self) -> Contents {
-        let hash = self.hasher.finalize();
-        Contents {
-            bytes: self.bytes,
-            sha256: hash.iter().map(|byte| format!("{byte:02x}")).collect(),
-        }
-    }
-}
-
-/// Reads a file to its end.
-fn for_each_piece(path: &Path, mut take: impl FnMut(&[u8])) -> io::Result<()> {
-    let mut file = perform(Operation::Read, path, || File::open(path))?;
-    let mut buffer = vec![0; BUFFER];
-    loop {
-        match file.read(&mut buffer) {
-            Ok(0) => return Ok(()),
-            Ok(read) => take(buffer.get(..read).unwrap_or_default()),
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-    }
-}
+use crate::read_back::ReadBack;
 
 /// A file that is compared with what was written when it is finished. For that a fast sum is enough: nobody
 /// chooses the bytes that a disk damages. It has 128 bits, and takes a tenth of the time of SHA-256.
@@ -77,6 +19,9 @@ pub struct HashedFile {
     file: File,
     path: PathBuf,
     written: xxhash3_128::Hasher,
+    bytes: u64,
+    /// Who reads the file while it is written.
+    reader: Option<FollowingReader>,
 }
 
 impl HashedFile {
@@ -86,6 +31,17 @@ impl HashedFile {
             file,
             path,
             written: xxhash3_128::Hasher::new(),
+            bytes: 0,
+            reader: None,
+        }
+    }
+
+    /// From now on another thread reads the file back while it is written, so that there is little left to
+    /// read in the end. Without a thread it is read in the end.
+    pub fn read_while_written(&mut self) {
+        self.reader = FollowingReader::begin(&self.path).ok();
+        if let Some(reader) = &self.reader {
+            reader.go_to(self.bytes);
         }
     }
 
@@ -96,36 +52,35 @@ impl HashedFile {
             file,
             path,
             written,
+            bytes: _,
+            reader,
         } = self;
         // Operations are announced by one thread, in one order.
         perform(Operation::Sync, &path, || Ok(()))?;
         let sync = || uninterrupted(|| file.sync_all());
+        let read_back = || match reader {
+            Some(reader) => {
+                perform(Operation::Read, &path, || Ok(()))?;
+                reader.finish()
+            }
+            None => ReadBack::of_file(&path),
+        };
         let found = thread::scope(|scope| {
             let Ok(syncing) = thread::Builder::new().spawn_scoped(scope, sync) else {
                 sync()?;
-                return read_back(&path);
+                return read_back();
             };
-            let found = read_back(&path);
+            let found = read_back();
             let synced = syncing.join();
             synced.unwrap_or_else(|_| Err(io::Error::other("it was not brought to the disk")))?;
             found
         });
-        let (contents, sum) = found?;
+        let (contents, sum) = found?.contents();
         match written.finish_128() == sum {
             true => Ok(contents),
             false => Err(io::Error::other("it does not read back as it was written")),
         }
     }
-}
-
-/// What a file has, and its fast sum.
-fn read_back(path: &Path) -> io::Result<(Contents, u128)> {
-    let (mut sum, mut found) = (Sum::default(), xxhash3_128::Hasher::new());
-    for_each_piece(path, |piece| {
-        sum.add(piece);
-        found.write(piece);
-    })?;
-    Ok((sum.contents(), found.finish_128()))
 }
 
 impl fmt::Debug for HashedFile {
@@ -142,6 +97,10 @@ impl Write for HashedFile {
         announce(Operation::Write, &self.path)?;
         let written = self.file.write(bytes)?;
         self.written.write(bytes.get(..written).unwrap_or_default());
+        self.bytes += written as u64;
+        if let Some(reader) = &self.reader {
+            reader.go_to(self.bytes);
+        }
         Ok(written)
     }
 
@@ -181,10 +140,42 @@ mod tests {
     fn a_file_that_another_changes_meanwhile_is_not_finished() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
+        for other in ["changed", "writte", "written!"] {
+            let mut file = HashedFile::new(File::create(&path).unwrap(), path.clone());
+            file.write_all(b"written").unwrap();
+            std::fs::write(&path, other).unwrap();
+            let error = file.finish().unwrap_err();
+            assert!(error.to_string().contains("read back"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_read_while_it_is_written_has_the_same_contents() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        let finished = |begin_at: usize, add: &[u8]| {
+            let mut file = HashedFile::new(File::create(&path).unwrap(), path.clone());
+            for piece in 0..100 {
+                if piece == begin_at {
+                    file.read_while_written();
+                }
+                file.write_all(&vec![b'a' + (piece % 26) as u8; 10_007])
+                    .unwrap();
+            }
+            let mut other = File::options().append(true).open(&path).unwrap();
+            other.write_all(add).unwrap();
+            file.finish()
+        };
+        let alone = finished(usize::MAX, b"").unwrap();
+        assert_eq!(alone, Contents::of_file(&path).unwrap());
+        for begin_at in [0, 50, 99] {
+            assert_eq!(finished(begin_at, b"").unwrap(), alone);
+            let error = finished(begin_at, b"of another").unwrap_err();
+            assert!(error.to_string().contains("read back"), "{error}");
+        }
         let mut file = HashedFile::new(File::create(&path).unwrap(), path.clone());
-        file.write_all(b"written").unwrap();
-        std::fs::write(&path, "changed").unwrap();
-        let error = file.finish().unwrap_err();
-        assert!(error.to_string().contains("read back"), "{error}");
+        file.read_while_written();
+        file.write_all(b"given up").unwrap();
+        drop(file);
     }
 }

@@ -25,11 +25,14 @@
 //! ```
 
 mod bounded;
+mod contents;
 mod draft;
 mod file_error;
+mod following_reader;
 mod gate;
 mod hashed_file;
 mod operation;
+mod read_back;
 mod registry;
 mod result_folder;
 mod scratch;
@@ -37,10 +40,10 @@ mod stale_drafts;
 mod temporary;
 
 pub use bounded::{read_bounded, read_bounded_text};
+pub use contents::Contents;
 pub use draft::{Draft, WholeFile};
 pub use file_error::FileError;
 pub use gate::{begin_draft, end_writing, wait_if_ending};
-pub use hashed_file::Contents;
 pub use operation::{Operation, watch_operations};
 pub use registry::{DraftKind, Registration, remove_drafts};
 pub use result_folder::{FolderError, ListedFile, ResultFolder};

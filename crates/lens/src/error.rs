@@ -83,6 +83,15 @@ pub enum ProblemKind {
         /// The word, shortened.
         key: String,
     },
+    /// A line of a surface stands before the first surface, or behind a line that is of none.
+    #[error(
+        "`{key}` is a line of a surface and does not stand with one: such lines follow their `SURF`, \
+         with no other line between"
+    )]
+    OfNoSurface {
+        /// The line's key.
+        key: String,
+    },
     /// The type of the surface is not known.
     #[error("surfaces of type `{name}` cannot be read; {KNOWN_TYPES} can")]
     UnknownType {

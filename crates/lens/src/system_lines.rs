@@ -33,6 +33,8 @@ enum Role {
     Operand,
     /// Something unknown before the surfaces.
     Setting,
+    /// A line of a surface, where no surface is.
+    OfSurface,
     /// Nothing of these.
     Unknown,
 }
@@ -73,6 +75,9 @@ impl<'a> SystemLines<'a> {
             let kind = match self.role(record) {
                 Role::Mode if first != "SEQ" => ProblemKind::Mode { found: found() },
                 Role::Count if first != "1" => ProblemKind::Configurations { count: found() },
+                Role::OfSurface => ProblemKind::OfNoSurface {
+                    key: shown(record.key),
+                },
                 Role::Unknown => ProblemKind::UnknownKey {
                     key: shown(record.key),
                 },
@@ -114,6 +119,7 @@ impl<'a> SystemLines<'a> {
             key if is_system(key) => Role::Known,
             _ if self.is_operand(record) => Role::Operand,
             _ if self.is_setting(record) => Role::Setting,
+            key if is_of_surface(key) => Role::OfSurface,
             _ => Role::Unknown,
         }
     }

@@ -3,6 +3,9 @@
 //! delivered is dropped. The path is then refined, and all its blocks are made, measured and delivered
 //! anew.
 
+use std::ops::RangeInclusive;
+
+use rayon::prelude::*;
 use turnpath_core::toolpath::Section;
 
 use crate::ahead::placing_ahead;
@@ -31,6 +34,9 @@ const LARGE_BATCH: usize = 64;
 const BATCH_POINTS: f64 = 5e5;
 /// Control points of a batch for each thread. More of them take fresh memory, whose first use costs time.
 const POINTS_A_THREAD: f64 = 1.5e5;
+/// The blocks without which a lead-in and the first block cannot be made, since a solver may see some nodes of
+/// the block behind, whose last one ends where the block behind that begins.
+const WANTED_FIRST: RangeInclusive<usize> = 1..=2;
 
 /// Makes the path, measures it, and gives it to the sink.
 ///
@@ -143,8 +149,9 @@ impl<'a> PathRun<'a> {
         let mut plan = schedule::plan(chain, preparation, observer)?;
         plan.time_steps = options.time_steps;
         plan.hold_nodes();
-        // The leads and the first block wait for the second one.
-        let (nodes, ()) = rayon::join(|| nodes_per_revolution(&plan), || plan.place_ahead(1));
+        let wanted = WANTED_FIRST.into_par_iter();
+        let place_first = || wanted.for_each(|index| plan.place_ahead(index));
+        let (nodes, ()) = rayon::join(|| nodes_per_revolution(&plan), place_first);
         let nodes = nodes?;
         Ok(Self {
             estimate: Estimate::of(&plan, nodes)?,

@@ -74,15 +74,25 @@ impl<R: Read> PartCalls<R> {
     }
 
     /// Takes a mark of a part; `false` if it is none.
+    ///
+    /// # Errors
+    /// When the mark is out of order, or when the file is a part and not the program that calls it.
     pub(crate) fn take_mark(&mut self, mark: &str) -> Result<bool, String> {
         let ends = mark.strip_prefix("-- end of part ");
         let begins = mark.strip_prefix("-- part ");
-        let Some(rest) = ends.or(begins).filter(|_| self.caller.is_some()) else {
+        let Some(rest) = ends.or(begins) else {
             return Ok(false);
         };
-        let number = rest
-            .strip_suffix(" --")
-            .and_then(|number| number.parse().ok());
+        let number = rest.strip_suffix(" --");
+        let number = number.and_then(|number| number.parse::<u32>().ok());
+        if self.caller.is_none() {
+            return match number.filter(|_| self.said.is_none()) {
+                Some(number) => Err(format!(
+                    "this file is part {number} of a program: read the main program, which calls it"
+                )),
+                None => Ok(false),
+            };
+        }
         let (from, to) = match ends {
             Some(_) => (Place::Within, Place::Behind),
             None => (Place::Before, Place::Within),

@@ -124,6 +124,11 @@ impl ProgramPath {
         self.points
     }
 
+    /// Lets another thread read the program's file back while it is written.
+    pub fn read_while_written(&mut self) {
+        self.draft.read_while_written();
+    }
+
     /// From where to where the path goes; `None` without points.
     pub fn extent(&self) -> Option<Extent> {
         self.extent

@@ -29,6 +29,10 @@ use crate::summary::{PAGE, SUMMARY, own_page};
 /// The table of the path.
 pub const TOOLPATH: &str = "toolpath.csv";
 
+/// From this size on a program is read back while it is written, bytes: a thread takes less time than the
+/// reading of so much.
+const LARGE_PROGRAM: u64 = 1 << 20;
+
 /// Takes a folder for one run alone, however often the run makes its path.
 ///
 /// # Errors
@@ -290,7 +294,7 @@ impl<'a> FolderSink<'a> {
 /// Puts a program together, in one file or with its parts; gives its files.
 fn whole_program(
     (job, program): (&Job, &Program),
-    path: ProgramPath,
+    mut path: ProgramPath,
     frame: &Frame,
     folder: &ResultFolder,
 ) -> Result<Vec<Draft>, Error> {
@@ -299,6 +303,9 @@ fn whole_program(
     let fits = program.refuse_large(size);
     fits.map_err(|error| not_carried(&job.recipe, error))?;
     let Some(limits) = program.limits_of(size) else {
+        if size.bytes > LARGE_PROGRAM && rayon::current_num_threads() > 1 {
+            path.read_while_written();
+        }
         return Ok(vec![path.assemble(around)?.prove()?]);
     };
     let (points, file) = (path.points(), path.file().to_owned());

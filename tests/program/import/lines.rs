@@ -74,19 +74,16 @@ fn unknown_settings_of_the_whole_design_are_notes() {
         said.stdout.contains("# Line 5: WXYZ is not known"),
         "{said}"
     );
-    for line in [
-        "CURV 0.02",
-        "CURV 0.02 0 0 0 0 0 0 0 0 0",
-        "  WXYZ 1",
-        "PARM 2 1E-6",
-        "wxyz 1",
-        "W 1",
-        "1234 5",
-        "CONFIGURATION 2",
-    ] {
+    for line in ["  WXYZ 1", "wxyz 1", "W 1", "1234 5", "CONFIGURATION 2"] {
         let key = line.split_whitespace().next().unwrap();
         let said = refused(header, &with(line), "--surface 2");
         let wanted = format!("line 5: `{key}` is not known");
+        assert!(said[0].contains(&wanted), "{line}: {said:?}");
+    }
+    for line in ["CURV 0.02", "CURV 0.02 0 0 0 0 0 0 0 0 0", "PARM 2 1E-6"] {
+        let key = line.split_whitespace().next().unwrap();
+        let said = refused(header, &with(line), "--surface 2");
+        let wanted = format!("line 5: `{key}` is a line of a surface and does not stand with one");
         assert!(said[0].contains(&wanted), "{line}: {said:?}");
     }
     // What stands in place of the mode may be the mode, misspelt.
@@ -124,11 +121,19 @@ fn operands_of_the_merit_function_measure_whatever_their_name() {
         ("MNUM 1 1\n", format!("MNUM 1 1\nCRVT {ten}\n")),
         // Between the surfaces a line may be one of theirs.
         ("SURF 3\n", format!("WXYZ {ten}\nSURF 3\n")),
+    ] {
+        let said = refused(passage, &with, "--surface 2");
+        assert!(said[0].contains("is not known"), "{with}: {said:?}");
+    }
+    for (passage, with) in [
         ("SURF 3\n", format!("LUID 1\n  CONI {ten}\nSURF 3\n")),
         ("SURF 3\n", format!("LUID 1\n  IGNR {ten}\nSURF 3\n")),
         ("SURF 0\n", format!("CONI {ten}\nSURF 0\n")),
     ] {
         let said = refused(passage, &with, "--surface 2");
-        assert!(said[0].contains("is not known"), "{with}: {said:?}");
+        assert!(
+            said[0].contains("does not stand with one"),
+            "{with}: {said:?}"
+        );
     }
 }

@@ -7,7 +7,7 @@ use std::path::{Component, Path};
 use serde::{Deserialize, Serialize};
 
 use crate::bounded::read_bounded;
-use crate::hashed_file::Contents;
+use crate::contents::Contents;
 
 /// The most bytes of an index or of a plan that are read.
 const MOST_BYTES: u64 = 1 << 26;

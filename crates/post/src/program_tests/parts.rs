@@ -161,6 +161,18 @@ fn a_part_that_is_missing_damaged_or_out_of_order_is_refused_with_its_place() {
     }
 }
 
+#[test]
+fn a_part_alone_is_told_as_a_part() {
+    for layout in layouts() {
+        let files = files(&layout, Amount::Blocks(25)).unwrap();
+        for (number, part) in (1..).zip(&files[1..]) {
+            let said = read_all(&layout, vec![part.clone()]).unwrap_err();
+            let wanted = format!("this file is part {number} of a program: read the main program");
+            assert!(said.contains(&wanted), "{}: {said}", layout.post.name);
+        }
+    }
+}
+
 /// A controller runs all lines of a part, those outside the marks too.
 #[test]
 fn code_outside_the_marks_of_a_part_is_refused_and_so_is_a_line_that_is_missing() {
