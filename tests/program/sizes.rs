@@ -131,3 +131,52 @@ fn long_the_sizes_of_the_recipes_of_the_documentation_are_right() {
         sizes_are_right(&format!("{own}\n"), &far);
     }
 }
+
+/// A part whose steps come out uneven at the borders of a sample.
+const SLOW_SADDLE: &str = r#"format = 1
+name = "Slow saddle"
+part.aperture = "2 mm"
+surface = { use = "astigmatic", k = "0.02 /mm" }
+tool.nose_radius = "1 mm"
+tolerance = { interpolation = "200 nm", residual = "1 um" }
+spindle.speed = "60 rpm"
+feed.use = "atpg"
+sampler.use = "atpg"
+compensator.use = "z-direction"
+velocity.use = "triangle-rotary"
+"#;
+
+/// The border of a block of the sample cuts its last step off. The path has no step that short.
+#[test]
+fn a_border_of_the_sample_is_no_short_line_of_the_path() {
+    for output in [
+        r#"posts = ["pmac-pvt"], pmac-pvt.shortest_segment = "3 ms""#,
+        r#"posts = ["siemens-840d-poly"], siemens-840d-poly.shortest_segment = "8 ms""#,
+        r#"posts = ["linuxcnc-g93"], linuxcnc-g93.lowest_rate = "0 mm/min""#,
+    ] {
+        let bench = Bench::with(&format!("{SLOW_SADDLE}output = {{ {output} }}\n"));
+        bench.line("check recipe.toml").ends(0);
+        bench.line("run recipe.toml -o out --no-report").ends(0);
+    }
+}
+
+/// 0.6 mm at 30 um a turn are 20 turns and a rounding: no block of its own, and no step.
+#[test]
+fn a_rounding_behind_whole_turns_is_no_block() {
+    let slow = changed(
+        SLOW_SADDLE,
+        "sampler.use = \"atpg\"",
+        "sampler.use = \"minimax\"",
+    );
+    let even = changed(
+        &slow,
+        "feed.use = \"atpg\"",
+        "feed = { use = \"constant\", feed = \"30 um/rev\" }",
+    );
+    let exact = changed(&even, "triangle-rotary", "analytic");
+    let recipe = changed(&exact, "aperture = \"2 mm\"", "aperture = \"1 mm\"");
+    let path = "path = { direction = \"outward\", overrun = \"0.05 mm\" }\n";
+    let bench = Bench::with(&format!("{recipe}{path}"));
+    bench.line("check recipe.toml").ends(0);
+    bench.line("run recipe.toml -o out --no-report").ends(0);
+}

@@ -21,6 +21,9 @@ use crate::{Chain, Preparation, Result, beyond, seams, spindle};
 /// Revolutions of a block. A sampler starts afresh at each border, which costs AST-50 a tenth of
 /// a percent of points; larger blocks take more memory and leave less to do in parallel.
 pub const BLOCK: f64 = 64.0;
+/// Revolutions of the last block, at least. What is left of a path is a part of the block before: where a law
+/// ends a rounding behind whole revolutions, no sampler has a step that short.
+const SHORTEST_BLOCK: f64 = 1e-4;
 /// Nodes of a block above which it takes half the revolutions, down to one, so that memory stays
 /// bounded on the finest paths. The choice depends on the task alone, so the bytes do not depend on
 /// the machine.
@@ -311,7 +314,12 @@ impl<'a> Plan<'a> {
 
     /// How many blocks there are.
     pub fn blocks(&self) -> usize {
-        (self.law.end() / self.block).ceil() as usize
+        let blocks = (self.law.end() / self.block).ceil() as usize;
+        let of_last = self.law.end() - blocks.saturating_sub(1) as f64 * self.block;
+        match of_last < SHORTEST_BLOCK {
+            true => blocks.saturating_sub(1).max(1),
+            false => blocks,
+        }
     }
 
     /// The revolutions of a block.
@@ -319,7 +327,10 @@ impl<'a> Plan<'a> {
         let start = index as f64 * self.block;
         Revolutions {
             start,
-            end: (start + self.block).min(self.law.end()),
+            end: match self.is_last(index) {
+                true => self.law.end(),
+                false => start + self.block,
+            },
         }
     }
 

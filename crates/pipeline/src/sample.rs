@@ -26,6 +26,10 @@ const SAMPLED_BLOCKS: usize = 16;
 /// rounding, or a controller's step of time.
 const WHOLE_STEP: f64 = 0.99;
 
+/// A step of less than this part of those beside it is the rest of one. Refinement halves steps, so that
+/// neighbours differ by more than a factor of four at few places.
+const SHORT_REST: f64 = 0.125;
+
 /// Some blocks of a path, refined, and its leads.
 #[derive(Debug, Clone, Default)]
 pub struct PathSample {
@@ -38,12 +42,13 @@ pub struct PathSample {
 /// A block that stands for its neighbours.
 #[derive(Debug, Clone)]
 pub struct SampledBlock {
-    /// Its control points, with the one at which the next block begins.
+    /// Its control points, with the one at which the next block begins. The border of a block that was made
+    /// small for the sample cuts its last step off, which is left out: such a step may be shorter than any of
+    /// the path.
     pub points: PathBlock,
     /// Revolutions of the path that it stands for, over its own.
     pub stands_for: f64,
-    /// Segments that it would have without its border, over those that it has. The border of a block that was
-    /// made small for the sample cuts its last step off.
+    /// Segments that it would have without its border, over those that it has.
     pub without_border: f64,
 }
 
@@ -120,16 +125,21 @@ fn sampled_block(
     depths: &[Depths],
     are_cut: bool,
 ) -> Result<SampledBlock> {
-    let block = block(plan, stratum.chosen, depths)?;
+    let BlockPoints {
+        mut points, owner, ..
+    } = block(plan, stratum.chosen, depths)?;
     let is_cut = are_cut && plan.repeats_nodes() && !plan.is_last(stratum.chosen);
-    let without_border = match is_cut {
-        true => without_border(&block.points.c, &block.owner),
-        false => 1.0,
-    };
+    let cut_off = is_cut.then(|| CutOff::of(&points.c, &owner)).flatten();
+    if let Some(cut_off) = &cut_off {
+        points.truncate(cut_off.segments_before + 1);
+    }
+    if are_cut {
+        points = without_rests(&points);
+    }
     Ok(SampledBlock {
-        points: block.points,
+        points,
         stands_for: stratum.stands_for(plan),
-        without_border,
+        without_border: cut_off.map_or(1.0, |cut_off| cut_off.steps_for_each),
     })
 }
 
@@ -196,25 +206,47 @@ fn block(plan: &Plan<'_>, index: usize, depths: &[Depths]) -> Result<BlockPoints
     Ok(blocks.into_iter().next().unwrap_or_default())
 }
 
-/// How many segments a block would have without its border, over those that it has. The border of a small
-/// block cuts the sampler's last step off, and in the path there are fewer borders. `owner` says of which
-/// step each segment is a part.
-fn without_border(c: &[f64], owner: &[u32]) -> f64 {
-    let steps: Vec<&[u32]> = owner.chunk_by(|one, other| one == other).collect();
-    let [.., before, last] = steps[..] else {
-        return 1.0;
+/// Joins each short rest of a step to the step before. A sampler begins afresh where a law has a border, and
+/// the step before ends there. How much is left for it depends on where the steps begin, and in a sample they
+/// begin elsewhere than in the path.
+fn without_rests(points: &PathBlock) -> PathBlock {
+    let duration = |from: usize| Some(points.t.get(from + 1)? - points.t.get(from)?);
+    let is_short = |own: f64, beside: Option<f64>| beside.is_none_or(|of| own < SHORT_REST * of);
+    let begins_rest = |from: usize| {
+        let before = from.checked_sub(1).and_then(duration);
+        let own = duration(from).filter(|own| before.is_some() && is_short(*own, before));
+        own.is_some_and(|own| is_short(own, duration(from + 1)))
     };
-    let whole = owner.len() - last.len();
-    let [Some(from), Some(middle), Some(end)] =
-        [whole - before.len(), whole, owner.len()].map(|place| c.get(place))
-    else {
-        return 1.0;
-    };
-    let part = (end - middle) / (middle - from);
-    let (before, of_each) = (steps.len() - 1, whole as f64 / (steps.len() - 1) as f64);
-    match part < WHOLE_STEP {
-        true => of_each * (before as f64 + part) / owner.len() as f64,
-        false => 1.0,
+    let kept = points.points().enumerate();
+    let kept = kept.filter(|(from, _)| !begins_rest(*from));
+    PathBlock::of(points.shape, kept.map(|(_, point)| point))
+}
+
+/// The last step of a block that its border cuts off. In the path there are fewer borders.
+#[derive(Debug, PartialEq)]
+struct CutOff {
+    /// The segments of the steps before.
+    segments_before: usize,
+    /// The steps that the block would have without its border, over those before the last one.
+    steps_for_each: f64,
+}
+
+impl CutOff {
+    /// The step that is cut off, if the last one is. `owner` says of which step each segment is a part.
+    fn of(c: &[f64], owner: &[u32]) -> Option<Self> {
+        let steps: Vec<&[u32]> = owner.chunk_by(|one, other| one == other).collect();
+        let [.., before, last] = steps[..] else {
+            return None;
+        };
+        let segments_before = owner.len() - last.len();
+        let begin = segments_before - before.len();
+        let (from, middle, end) = (c.get(begin)?, c.get(segments_before)?, c.get(owner.len())?);
+        let part = (end - middle) / (middle - from);
+        let whole_steps = (steps.len() - 1) as f64;
+        (part < WHOLE_STEP).then(|| Self {
+            segments_before,
+            steps_for_each: (whole_steps + part) / whole_steps,
+        })
     }
 }
 
@@ -228,26 +260,53 @@ fn last_two(points: &PathBlock) -> Option<[ControlPoint; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use turnpath_core::toolpath::SegmentShape;
+
     use super::*;
 
     #[test]
     fn a_step_that_the_border_cuts_off_counts_as_its_part() {
+        let cut_off = |segments_before, steps_for_each| {
+            Some(CutOff {
+                segments_before,
+                steps_for_each,
+            })
+        };
         assert_eq!(
-            without_border(&[0.0, 1.0, 2.0, 2.25], &[0, 1, 2]),
-            2.25 / 3.0
+            CutOff::of(&[0.0, 1.0, 2.0, 2.25], &[0, 1, 2]),
+            cut_off(2, 2.25 / 2.0)
         );
-        assert_eq!(without_border(&[0.0, 1.0, 2.0, 3.0], &[0, 1, 2]), 1.0);
-        assert_eq!(without_border(&[0.0, 1.0, 2.0, 4.0], &[0, 1, 2]), 1.0);
-        assert_eq!(without_border(&[0.0, 1.0], &[0]), 1.0);
-        assert_eq!(without_border(&[], &[]), 1.0);
+        assert_eq!(CutOff::of(&[0.0, 1.0, 2.0, 3.0], &[0, 1, 2]), None);
+        assert_eq!(CutOff::of(&[0.0, 1.0, 2.0, 4.0], &[0, 1, 2]), None);
+        assert_eq!(CutOff::of(&[0.0, 1.0], &[0]), None);
+        assert_eq!(CutOff::of(&[], &[]), None);
         // Rounding cuts nothing off, however many segments the steps before have.
-        assert_eq!(
-            without_border(&[0.0, 0.5, 1.0, 2.0 - 1e-12], &[0, 0, 1]),
-            1.0
-        );
+        let rounded = [0.0, 0.5, 1.0, 2.0 - 1e-12];
+        assert_eq!(CutOff::of(&rounded, &[0, 0, 1]), None);
         // Two steps of four segments each, and half a step of one.
         let c = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5];
-        assert_eq!(without_border(&c, &[0, 0, 0, 0, 1, 1, 1, 1, 2]), 10.0 / 9.0);
+        let owner = [0, 0, 0, 0, 1, 1, 1, 1, 2];
+        assert_eq!(CutOff::of(&c, &owner), cut_off(8, 2.5 / 2.0));
+    }
+
+    #[test]
+    fn the_short_rest_of_a_step_belongs_to_the_step_before() {
+        let times = |times: &[f64]| {
+            let point = |t: &f64| ControlPoint {
+                t: *t,
+                ..ControlPoint::default()
+            };
+            let points = PathBlock::of(SegmentShape::Cubic, times.iter().map(point));
+            without_rests(&points).t
+        };
+        assert_eq!(times(&[0.0, 1.0, 2.0, 2.1, 3.1]), [0.0, 1.0, 2.1, 3.1]);
+        assert_eq!(times(&[0.0, 1.0, 2.0, 2.1]), [0.0, 1.0, 2.1]);
+        assert_eq!(times(&[0.0, 1.0, 2.0, 2.2, 3.2]), [0.0, 1.0, 2.0, 2.2, 3.2]);
+        // Halved steps, and a first one that no other stands before.
+        assert_eq!(times(&[0.0, 0.1, 1.0, 2.0]), [0.0, 0.1, 1.0, 2.0]);
+        assert_eq!(times(&[0.0, 1.0, 1.1, 1.2, 2.2]), [0.0, 1.0, 1.1, 1.2, 2.2]);
+        assert_eq!(times(&[0.0]), [0.0]);
+        assert!(times(&[]).is_empty());
     }
 
     #[test]

@@ -77,6 +77,17 @@ struct StraightSegment {
     start: Peak,
 }
 
+impl StraightSegment {
+    fn of(line: &Cubic, segment: &Segment) -> Self {
+        let duration = segment.duration;
+        Self {
+            rate: line.slope(0.0) / duration,
+            duration,
+            start: Peak::on(segment, 0.0, 0.0),
+        }
+    }
+}
+
 impl AxisMotion {
     /// Root of the mean square of the velocity over time.
     pub fn rms_velocity(&self) -> f64 {
@@ -154,16 +165,11 @@ impl AxisMotion {
     }
 
     fn include_straight(&mut self, line: &Cubic, segment: &Segment) {
-        let (rise, duration) = (line.slope(0.0), segment.duration);
-        let rate = rise / duration;
-        let here = StraightSegment {
-            rate,
-            duration,
-            start: Peak::on(segment, 0.0, 0.0),
-        };
+        let here = StraightSegment::of(line, segment);
+        let StraightSegment { rate, duration, .. } = here;
         self.velocity = self.velocity.or(Peak::on(segment, 0.5, rate.abs()));
         self.squares[0] += rate * rate * duration;
-        self.travel += rise;
+        self.travel += line.slope(0.0);
         self.time += duration;
         self.join([here, here]);
     }
@@ -269,6 +275,24 @@ impl AxesMotion {
             motion.include(&segment, points.shape);
         }
         motion
+    }
+
+    /// Goes on behind a stretch of straight segments that is measured elsewhere, by its first and its last
+    /// segment. The blend into the first one counts, if there is one; what follows begins behind the last one.
+    pub(crate) fn pass_straight(&mut self, first: Option<&Segment>, last: &Segment) {
+        for (axis, of) in [
+            (&mut self.c, (|segment| &segment.c) as AxisOf),
+            (&mut self.x, |segment| &segment.x),
+            (&mut self.z, |segment| &segment.z),
+        ] {
+            if let Some(first) = first {
+                let first = StraightSegment::of(of(first), first);
+                axis.join([first, first]);
+            }
+            let last = StraightSegment::of(of(last), last);
+            let begin = axis.outer.map_or(last, |[begin, _]| begin);
+            axis.outer = Some([begin, last]);
+        }
     }
 
     /// Includes the path's next segment.

@@ -104,18 +104,14 @@ pub struct LeadBlockFigures {
     ends: Option<[Acceleration; 2]>,
 }
 
-/// The end of the last block.
-#[derive(Debug, Clone, Copy)]
-struct BlockEnd {
-    acceleration: Acceleration,
-    cutting: bool,
-}
-
 /// Measures the leads of a path. It needs all blocks of the path in order, those of the cut too.
 #[derive(Debug, Clone, Default)]
 pub struct LeadMeter {
     figures: LeadFigures,
-    end: Option<BlockEnd>,
+    /// The acceleration at the end of the last block of cubics.
+    end: Option<Acceleration>,
+    /// Whether that block, or one of straight segments, belongs to the cut.
+    is_behind_cut: bool,
 }
 
 impl LeadMeter {
@@ -154,23 +150,32 @@ impl LeadMeter {
     /// Appends the next block of a lead.
     pub fn append(&mut self, next: &LeadBlockFigures) {
         self.figures.append(&next.figures);
-        self.follow(next.ends, false);
+        if let Some(ends) = next.ends {
+            self.follow(ends, false);
+        }
+        self.is_behind_cut = false;
     }
 
     /// Appends the next block of the cut. Only its two ends count.
     pub fn append_cut(&mut self, points: &PathBlock) {
-        self.follow(ends(points), true);
+        let Some([first, last]) = outer_segments(points) else {
+            return;
+        };
+        match points.shape {
+            SegmentShape::Cubic => self.follow([at(&first, 0.0), at(&last, 1.0)], true),
+            SegmentShape::Linear => {
+                let first = (!self.is_behind_cut).then_some(&first);
+                self.figures.axes.pass_straight(first, &last);
+            }
+        }
+        self.is_behind_cut = true;
     }
 
-    fn follow(&mut self, ends: Option<[Acceleration; 2]>, cutting: bool) {
-        let Some([first, last]) = ends else { return };
-        if let Some(end) = self.end.filter(|end| !(end.cutting && cutting)) {
-            self.figures.jumps.include(end.acceleration, first);
+    fn follow(&mut self, [first, last]: [Acceleration; 2], cutting: bool) {
+        if let Some(end) = self.end.filter(|_| !(self.is_behind_cut && cutting)) {
+            self.figures.jumps.include(end, first);
         }
-        self.end = Some(BlockEnd {
-            acceleration: last,
-            cutting,
-        });
+        self.end = Some(last);
     }
 
     /// The figures so far; `None` if the path has no lead so far.
@@ -223,15 +228,14 @@ fn at_start(touch: &FirstTouch, instants: &InstantBatch, index: usize) -> f64 {
 
 /// Accelerations at the two ends of a block; `None` for straight segments.
 fn ends(points: &PathBlock) -> Option<[Acceleration; 2]> {
-    if points.shape == SegmentShape::Linear {
-        return None;
-    }
-    let between = |from: usize| {
-        let (from, to) = (points.get(from)?, points.get(from + 1)?);
-        Some(Segment::between(&from, &to))
-    };
-    let last = between(points.len().checked_sub(2)?)?;
-    Some([at(&between(0)?, 0.0), at(&last, 1.0)])
+    let [first, last] = outer_segments(points).filter(|_| points.shape == SegmentShape::Cubic)?;
+    Some([at(&first, 0.0), at(&last, 1.0)])
+}
+
+/// The first and the last segment of a block.
+fn outer_segments(points: &PathBlock) -> Option<[Segment; 2]> {
+    let last = points.len().checked_sub(2)?;
+    Some([points.segment(0)?, points.segment(last)?])
 }
 
 /// Accelerations at the position `s` of a segment, 0 to 1.

@@ -1,7 +1,7 @@
 //! Leads against a flat part, where clearance is Z itself.
 
 use crate::common::{Plane, touch_on};
-use turnpath_core::toolpath::{ControlPoint, PathBlock};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, SegmentShape};
 use turnpath_verify::{FirstTouch, LeadMeter};
 
 fn flat() -> FirstTouch {
@@ -67,4 +67,32 @@ fn jumps_are_reported_in_leads_and_at_joins_and_not_within_the_cut() {
     assert!((jump(&meter) - 10.0).abs() < 1e-12);
     assert_eq!(meter.figures().unwrap().segments, 3);
     assert!(LeadMeter::default().figures().is_none());
+}
+
+#[test]
+fn straight_leads_blend_into_the_cut_and_out_of_it_and_not_into_each_other() {
+    let lines = |t: &[f64], z: fn(f64) -> f64| PathBlock {
+        shape: SegmentShape::Linear,
+        ..block(1.0, t, z, |_| 0.0)
+    };
+    let touch = flat();
+    let mut meter = LeadMeter::default();
+    let acceleration = |meter: &LeadMeter| meter.figures().unwrap().axes.z.acceleration;
+    // The rate of Z is −2, and −1 on the first line of the cut: over 0.75 s.
+    meter.append(&LeadMeter::measure(&touch, &lines(&[0.0, 0.5, 1.0], |t| 9.0 - 2.0 * t)).unwrap());
+    assert_eq!(acceleration(&meter).amount, 0.0);
+    meter.append_cut(&lines(&[1.0, 2.0], |t| 8.0 - t));
+    assert!((acceleration(&meter).amount - 1.0 / 0.75).abs() < 1e-12);
+    assert_eq!(acceleration(&meter).at_c, 7.0);
+    // Within the cut it is 50 mm/s². That is no motion of a lead.
+    meter.append_cut(&lines(&[2.0, 3.0], |t| 6.0 + 49.0 * (t - 2.0)));
+    meter.append_cut(&lines(&[3.0, 4.0], |t| 55.0 - 2.0 * (t - 3.0)));
+    assert!((acceleration(&meter).amount - 1.0 / 0.75).abs() < 1e-12);
+    // From −2 to 0.5, over 1 s.
+    meter.append(
+        &LeadMeter::measure(&touch, &lines(&[4.0, 5.0], |t| 53.0 + 0.5 * (t - 4.0))).unwrap(),
+    );
+    assert!((acceleration(&meter).amount - 2.5).abs() < 1e-12);
+    assert_eq!(acceleration(&meter).at_c, 28.0);
+    assert_eq!(meter.figures().unwrap().axes.z.velocity.amount, 2.0);
 }
