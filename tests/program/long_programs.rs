@@ -88,6 +88,30 @@ fn parts_measure_as_one_program_and_are_in_the_result() {
         assert_eq!(found["anomalies"]["count"], 0, "{end}");
         assert_eq!(found["rows"], whole_rows(&whole, end), "{end}");
     }
+    // One digit of a height is another, and the path still holds.
+    let part = "out/recipe-part-3.cnc";
+    let text = bench.read(part);
+    let (before, rest) = text.split_once("Z").unwrap();
+    let end = rest
+        .find(|c: char| !c.is_ascii_digit() && c != '-' && c != '.')
+        .unwrap();
+    let (digits, behind) = (&rest[..end - 1], &rest[end..]);
+    let last = if rest[..end].ends_with('5') { '6' } else { '5' };
+    bench.write(part, format!("{before}Z{digits}{last}{behind}"));
+    let said = bench
+        .line("verify recipe.toml out/recipe.cnc --format json")
+        .ends(1);
+    let result = &said.json()["result"];
+    assert_eq!(result["holds"], false, "{result}");
+    let wanted = "the bytes of its part recipe-part-3.cnc are not those that the run wrote";
+    assert!(
+        result["notes"][0].as_str().unwrap().contains(wanted),
+        "{result}"
+    );
+    let said = bench
+        .line("verify recipe.toml out/recipe.mpf --format json")
+        .ends(0);
+    assert_eq!(said.json()["result"]["holds"], true);
     std::fs::remove_file(bench.path("out/recipe-part-2.pmc")).unwrap();
     let said = bench.line("verify recipe.toml out/recipe.pmc").ends(4);
     assert!(said.stderr.contains("recipe-part-2.pmc"), "{said}");

@@ -17,6 +17,8 @@ pub(crate) struct PartCalls<R> {
     said: Option<u32>,
     /// The parts that it has called so far.
     called: u32,
+    /// Their files.
+    files: Vec<String>,
     /// The main program, while a part of it is read: its lines, its file, and the line of the call.
     pub(crate) caller: Option<(LineReader<R>, PathBuf, u64)>,
     place: Place,
@@ -39,6 +41,7 @@ impl<R> Default for PartCalls<R> {
             open: None,
             said: None,
             called: 0,
+            files: Vec::new(),
             caller: None,
             place: Place::Before,
             around: Default::default(),
@@ -112,6 +115,11 @@ impl<R: Read> PartCalls<R> {
         self.around = around.map(VecDeque::from);
     }
 
+    /// The files of the parts that were called so far.
+    pub(crate) fn files(&self) -> &[String] {
+        &self.files
+    }
+
     /// The number of the part that is read.
     pub(crate) fn number(&self) -> u32 {
         self.called
@@ -164,6 +172,7 @@ impl<R: Read> PartCalls<R> {
         let open = open.ok_or_else(|| invalid("a program of parts is read from its folder"))?;
         let part = open(name)?;
         self.called += 1;
+        self.files.push(name.to_owned());
         self.place = Place::Before;
         Ok(part)
     }

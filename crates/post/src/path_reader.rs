@@ -79,6 +79,11 @@ pub trait ReadPath {
     /// The same count, mutable.
     fn read_count_mut(&mut self) -> &mut ReadCount;
 
+    /// The parts that a main program has called so far: the names of their files, which lie beside its own.
+    fn parts(&self) -> &[String] {
+        &[]
+    }
+
     /// The next segments of one section, at most `most` of them: the section, and the control points
     /// of the segments. A block begins with the last point of the previous block. The segment
     /// between a lead and the cutting section belongs to the lead. `None` at the end.

@@ -238,6 +238,9 @@ impl<R: Read> ProgramReader<R> {
             }
             self.section = Some(section);
             self.place = Place::Path;
+            if section == Section::LeadIn {
+                self.travel.begin_lead_in();
+            }
             return Ok(true);
         }
         if text == DEPTHS_MARK && self.place == Place::Header {
@@ -255,7 +258,7 @@ impl<R: Read> ProgramReader<R> {
         }
         if text == RETREAT_MARK && self.place == Place::Path {
             self.place = Place::Retreat;
-            self.travel.begin_retreat(self.line);
+            self.travel.begin_retreat(self.line)?;
             let last = self.grammar.finish();
             self.wait(last);
             return Ok(true);
@@ -518,5 +521,9 @@ impl<R: Read> ReadPath for ProgramReader<R> {
 
     fn read_count_mut(&mut self) -> &mut ReadCount {
         &mut self.read_count
+    }
+
+    fn parts(&self) -> &[String] {
+        self.parts.files()
     }
 }

@@ -45,6 +45,8 @@ pub(crate) struct TravelCheck {
     rise: f64,
     /// Whether the program has an approach: its mark was read.
     approached: bool,
+    /// Whether the path has a lead-in: its mark was read.
+    leads_in: bool,
     /// Whether the path is over.
     retreats: bool,
 }
@@ -62,6 +64,11 @@ impl TravelCheck {
     /// Begins the approach: behind its mark the path begins where these moves end.
     pub(crate) fn begin_approach(&mut self) {
         self.approached = true;
+    }
+
+    /// Begins the lead-in.
+    pub(crate) fn begin_lead_in(&mut self) {
+        self.leads_in = true;
     }
 
     /// Takes the places that a line gives. Only one axis may move, Z must have moved first, and each move is a
@@ -173,11 +180,21 @@ impl TravelCheck {
 
     /// Begins the retreat: the axes are where the path ends, so Z may move at once, and nothing else.
     /// `line` is that of its mark.
-    pub(crate) fn begin_retreat(&mut self, line: u64) {
+    ///
+    /// # Errors
+    /// When the approach is missing that stands before a path with a lead-in and a retreat.
+    pub(crate) fn begin_retreat(&mut self, line: u64) -> Result<(), String> {
+        if self.leads_in && !self.approached {
+            return Err(
+                "the program has a retreat and no approach: the moves before its path are missing"
+                    .to_owned(),
+            );
+        }
         self.modes = TravelModes::default();
         self.at = Places::default();
         self.retreats = true;
         self.unfinished_retreat = Some(line);
+        Ok(())
     }
 
     /// Checks the heights, at the end of the path: the line of the first wrong move, and what is wrong.

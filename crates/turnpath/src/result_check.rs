@@ -94,9 +94,9 @@ pub fn read_result(folder: impl AsRef<Path>) -> Result<RunReport, ResultError> {
     Ok(report)
 }
 
-/// What the summary beside a file says of it; `None` where there is none that lists it. A summary that
-/// cannot be read, or a result that is not finished, holds for no file.
-pub fn result_check(file: &Path, recipe: &Recipe) -> Option<ResultCheck> {
+/// What the summary beside a file says of it, and of the parts that it calls; `None` where there is none that
+/// lists it. A summary that cannot be read, or a result that is not finished, holds for no file.
+pub fn result_check(file: &Path, parts: &[String], recipe: &Recipe) -> Option<ResultCheck> {
     let folder = folder_of(file);
     let unknown = |note: String| ResultCheck {
         summary: file.with_file_name(SUMMARY).display().to_string(),
@@ -113,36 +113,49 @@ pub fn result_check(file: &Path, recipe: &Recipe) -> Option<ResultCheck> {
         FolderSummary::Damaged(why) => Some(unknown(format!(
             "the summary is damaged, so nobody can say whether the file is whole: {why}"
         ))),
-        FolderSummary::Read(report) => check_with(&report, &folder, file, recipe),
+        FolderSummary::Read(report) => check_with(&report, &folder, (file, parts), recipe),
     }
 }
 
 fn check_with(
     report: &RunReport,
     folder: &Path,
-    file: &Path,
+    (file, parts): (&Path, &[String]),
     recipe: &Recipe,
 ) -> Option<ResultCheck> {
     let name = file.file_name()?.to_str()?;
     let files = report.files.as_ref()?;
-    let own = files.iter().find(|listed| listed.file == name)?;
-    let holds = is_whole(folder, own).unwrap_or(false);
-    let mut notes: Vec<String> = files
-        .iter()
-        .filter(|listed| listed.file != name)
-        .filter_map(|listed| note_on(folder, listed))
-        .collect();
-    if !holds {
-        let other =
-            "its bytes are not those that the run wrote: the file is not whole, or was changed";
-        notes.insert(0, other.to_owned());
-    }
+    files.iter().find(|listed| listed.file == name)?;
+    let is_own = |listed: &&ResultFile| listed.file == name || parts.contains(&listed.file);
+    let (own, others): (Vec<&ResultFile>, Vec<&ResultFile>) = files.iter().partition(is_own);
+    let changed = own
+        .into_iter()
+        .filter(|listed| !is_whole(folder, listed).unwrap_or(false));
+    let mut notes: Vec<String> = changed.map(|listed| note_on_own(listed, name)).collect();
+    let holds = notes.is_empty();
+    notes.extend(
+        others
+            .into_iter()
+            .filter_map(|listed| note_on(folder, listed)),
+    );
     notes.extend(note_on_recipe(report, recipe));
     Some(ResultCheck {
         summary: file.with_file_name(SUMMARY).display().to_string(),
         holds,
         notes,
     })
+}
+
+/// What is wrong with the file itself, whose name is `name`, or with a part that it calls.
+fn note_on_own(listed: &ResultFile, name: &str) -> String {
+    match listed.file == name {
+        true => "its bytes are not those that the run wrote: the file is not whole, or was changed"
+            .to_owned(),
+        false => format!(
+            "the bytes of its part {} are not those that the run wrote: the part is not whole, or was changed",
+            listed.file
+        ),
+    }
 }
 
 /// What is wrong with another file of the result.

@@ -545,6 +545,16 @@ fn an_approach_without_a_retreat_is_refused() {
 }
 
 #[test]
+fn a_retreat_without_an_approach_is_refused_where_the_path_has_a_lead_in() {
+    let text = good("pmac-pvt");
+    let (head, rest) = text.split_once("; -- approach --").unwrap();
+    let (_, path) = rest.split_once("; -- lead-in").unwrap();
+    let bare = format!("{head}; -- lead-in{path}");
+    let said = read(&plain(&POSTS[0]), bare.as_bytes()).unwrap_err();
+    assert!(said.contains("a retreat and no approach"), "{said}");
+}
+
+#[test]
 fn marks_out_of_order_are_refused() {
     let text = good("pmac-pvt");
     let swapped = text.replace("-- retreat --", "-- approach --");
@@ -560,7 +570,9 @@ fn a_program_without_an_approach_is_read() {
     let text = good("pmac-pvt");
     let (head, rest) = text.split_once("; -- approach --").unwrap();
     let (_, path) = rest.split_once("; -- lead-in").unwrap();
-    let bare = format!("{head}; -- lead-in{path}");
+    let (path, rest) = path.split_once("; -- retreat").unwrap();
+    let (_, end) = rest.split_once("; -- end").unwrap();
+    let bare = format!("{head}; -- lead-in{path}; -- end{end}");
     let layout = plain(&POSTS[0]);
     assert_eq!(
         read(&layout, bare.as_bytes()).unwrap(),

@@ -177,7 +177,7 @@ impl<'a> Target<'a> {
             files: self.draw(file, plots, &played, observer)?,
             anomalies,
             unreached,
-            result: result_check(&file.path, recipe),
+            result: result_check(&file.path, reader.parts(), recipe),
             controller_commands: commands.foreign,
             missing_commands: commands.missing,
         };
