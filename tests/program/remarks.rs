@@ -92,3 +92,22 @@ fn a_fast_z_has_one_unless_the_machine_has_a_limit() {
     let json = bench.line(&limited).ends(0).json();
     assert_eq!(json["remarks"], serde_json::json!([]));
 }
+
+/// At 2000 rpm a segment of 0.1 ms is more than a degree. Its error is far above a picometre.
+#[test]
+fn an_error_that_shorter_segments_would_lower_has_one_that_says_so() {
+    let bench = Bench::with(SADDLE);
+    let words = "run recipe.toml -o out --set spindle.speed=2000rpm \
+                 --set tolerance.interpolation=0.001nm --set tolerance.residual=1um";
+    let said = bench.line(words).ends(1);
+    let wanted = "refinement makes none below 0.1 ms: turn the spindle slower";
+    assert!(said.stdout.contains(wanted), "{said}");
+    let kinds = |words: &str| {
+        let json = bench.line(&format!("{words} --format json")).json();
+        json["remarks"].to_string()
+    };
+    assert!(kinds(words).contains("shortest_segments"));
+    // Without refinement nothing was to be halved.
+    let words = format!("{words} --set refine=false");
+    assert!(!kinds(&words).contains("shortest_segments"));
+}

@@ -48,6 +48,15 @@ pub enum Remark {
         #[serde(rename = "acceleration_mm_per_s2", with = "unit::s")]
         acceleration: f64,
     },
+    /// The interpolation error exceeds its tolerance where refinement makes no shorter segments.
+    ShortestSegments {
+        /// Time of the segment with the largest error, s.
+        #[serde(rename = "segment_time_s", with = "unit::s")]
+        segment_time: f64,
+        /// The shortest segment that refinement makes, s.
+        #[serde(rename = "shortest_s", with = "unit::s")]
+        shortest: f64,
+    },
     /// The cut takes longer than a working day.
     LongCut {
         /// Time of the cutting section, s.

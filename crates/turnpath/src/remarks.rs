@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 
 use turnpath_core::{Axis, DEG, Derivative, Scalar, Tolerance};
+use turnpath_pipeline::SMALLEST_SEGMENT;
 use turnpath_post::Layout;
 use turnpath_recipe::Recipe;
 use turnpath_report::{ProgramDigits, Remark, RemarkSubject};
+use turnpath_verify::PlaybackFigures;
 
 use crate::posts::{layout, posts};
 
@@ -51,6 +53,15 @@ pub fn remarks(recipe: &Recipe, path: &PathSubject, cut_angle: f64) -> Vec<Remar
     let layouts = posts(recipe).map(|post| layout(recipe, post, true));
     let depths = layouts.filter_map(|layout| several_depths(&layout, path));
     subject.remarks().into_iter().chain(depths).collect()
+}
+
+/// The remark on a path whose error exceeds the tolerance where refinement makes no shorter segments.
+pub fn shortest_segments(tolerance: &Tolerance, playback: &PlaybackFigures) -> Option<Remark> {
+    let is_shortest = playback.segment_time < 2.0 * SMALLEST_SEGMENT;
+    (is_shortest && playback.max() > tolerance.interpolation).then_some(Remark::ShortestSegments {
+        segment_time: playback.segment_time,
+        shortest: SMALLEST_SEGMENT,
+    })
 }
 
 /// The remark on a loop over depths, whose program takes longer than the path.

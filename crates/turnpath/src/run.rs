@@ -27,7 +27,7 @@ use crate::page::{page_of_run, path_sketch};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
 use crate::program::ProgramText;
-use crate::remarks::PathSubject;
+use crate::remarks::{PathSubject, shortest_segments};
 use crate::rough_paths::{RoughJob, can_be_in_result};
 use crate::sinks::{RowCount, SinkError, of_run};
 use crate::toolpath::ToolPath;
@@ -315,6 +315,13 @@ impl Job {
             control_points: outcome.control_points as f64,
             z_acceleration: Some(path.axes.z.acceleration.max),
         };
+        let mut remarks = self.remarks(&subject)?;
+        if recipe.refine {
+            remarks.extend(shortest_segments(
+                &subject.tolerance,
+                &outcome.figures.playback,
+            ));
+        }
         if let Some(form) = &mut path.form {
             form.split = split;
         }
@@ -333,7 +340,7 @@ impl Job {
             revolutions: outcome.revolutions,
             cutting_time: outcome.cutting_time,
             feed_cap: figures::feed_cap(outcome.feed_cap.as_ref()),
-            remarks: self.remarks(&subject)?,
+            remarks,
             within: path.verdict(None),
             path,
             axes_of_law: outcome.own_axes.as_ref().map(figures::axes),

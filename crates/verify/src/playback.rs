@@ -22,6 +22,8 @@ pub struct PlaybackFigures {
     pub at_c: f64,
     /// X of its position, mm.
     pub at_x: f64,
+    /// Time of the segment in which it is, s.
+    pub segment_time: f64,
     /// Time integral of the error's square, mm²·s.
     square: f64,
     /// Time measured, s.
@@ -58,6 +60,7 @@ impl PlaybackFigures {
             self.extreme = worst.error;
             self.at_c = segment.c.value(worst.at);
             self.at_x = segment.x.value(worst.at);
+            self.segment_time = segment.duration;
         }
     }
 
@@ -68,6 +71,7 @@ impl PlaybackFigures {
         if !self.broken && (next.broken || next.extreme.abs() > self.extreme.abs()) {
             self.broken = next.broken;
             (self.extreme, self.at_c, self.at_x) = (next.extreme, next.at_c, next.at_x);
+            self.segment_time = next.segment_time;
         }
     }
 }

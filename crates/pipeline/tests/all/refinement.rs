@@ -88,7 +88,9 @@ fn segments_stop_at_the_smallest_and_the_outcome_shows_the_missed_tolerance() {
     let (path, outcome) = task.path();
     let shortest = path.t.windows(2).map(|t| t[1] - t[0]).fold(1.0, f64::min);
     assert!((SMALLEST_SEGMENT..2.0 * SMALLEST_SEGMENT).contains(&shortest));
-    assert!(outcome.figures.playback.max() > tolerance);
+    let playback = &outcome.figures.playback;
+    assert!(playback.max() > tolerance);
+    assert!(playback.segment_time < 2.0 * SMALLEST_SEGMENT);
 }
 
 #[test]

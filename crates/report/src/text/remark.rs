@@ -33,6 +33,17 @@ pub fn sentence(remark: &Remark) -> String {
             let acceleration = significant(acceleration / 1e3);
             format!("Z accelerates by {acceleration} m/s², and [machine] has no limit for it")
         }
+        Remark::ShortestSegments {
+            segment_time,
+            shortest,
+        } => {
+            let (segment_time, shortest) = (significant(segment_time * 1e3), shortest * 1e3);
+            format!(
+                "the interpolation error exceeds its tolerance in a segment of {segment_time} ms, and \
+                 refinement makes none below {shortest} ms: turn the spindle slower, so that segments \
+                 take longer"
+            )
+        }
         Remark::LongCut { cutting_time } => {
             format!(
                 "the cut takes {}, longer than a working day",
