@@ -297,3 +297,44 @@ fn verify_names_what_a_program_lacks_of_its_recipe() {
         );
     }
 }
+
+/// Whoever numbers the lines of a program, or writes it in small letters, changes nothing that it does.
+#[test]
+fn numbered_lines_and_small_letters_are_the_commands_of_the_recipe() {
+    let posts = [
+        ("siemens-840d-poly", "mpf"),
+        ("beckhoff-poly", "ncp"),
+        ("beckhoff-g93", "cnc"),
+        ("nanotech-g93", "nc"),
+        ("linuxcnc-g93", "ngc"),
+        ("pmac-pvt", "pmc"),
+    ];
+    let names: Vec<&str> = posts.iter().map(|(post, _)| *post).collect();
+    let led = SADDLE.replace("lead = false", "lead = true");
+    let lines = "nanotech-g93 = { f_means = \"1/min\", depths = 3, depth_step = \"2 um\" }\n\
+                 linuxcnc-g93.servo_period = \"0.05 ms\"\n";
+    let bench = Bench::with(&format!("{led}\n[output]\nposts = {names:?}\n{lines}"));
+    bench.line("run recipe.toml -o out --no-report").ends(0);
+    for (post, end) in posts {
+        let file = format!("out/recipe.{end}");
+        let text = bench.read(&file);
+        let numbered = |line: &str| {
+            let is_code = !line.is_empty() && !line.starts_with([';', '(', '%']);
+            match is_code && !post.starts_with("pmac") {
+                true => format!("N10 {line}\n"),
+                false => format!("{line}\n"),
+            }
+        };
+        let numbered: String = text.lines().map(numbered).collect();
+        for changed in [numbered, text.to_lowercase()] {
+            bench.write(&file, changed);
+            let said = bench.line(&format!("verify recipe.toml {file} --format json"));
+            let json = said.json();
+            for list in ["controller_commands", "missing_commands"] {
+                let named = json[list].as_array().map_or(0, Vec::len);
+                assert_eq!(named, 0, "{post}: {}", json[list]);
+            }
+            assert_eq!(json["anomalies"]["count"], 0, "{post}: {json}");
+        }
+    }
+}

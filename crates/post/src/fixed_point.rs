@@ -152,11 +152,12 @@ fn long_to_f64(value: i128) -> f64 {
     value as f64
 }
 
-/// A decimal number with or without a minus in 10⁻¹²; `what` names it in the message.
+/// A decimal number with or without a sign in 10⁻¹²; `what` names it in the message.
 pub(crate) fn number(what: &str, text: &str) -> Result<i128, String> {
-    let (negative, size) = match text.strip_prefix('-') {
-        Some(size) => (true, size),
-        None => (false, text),
+    let (negative, size) = match text.split_at_checked(1) {
+        Some(("-", size)) => (true, size),
+        Some(("+", size)) => (false, size),
+        _ => (false, text),
     };
     let decimal = LeadingDecimal::of(size.as_bytes()).filter(|found| found.length == size.len());
     let decimal = decimal.ok_or_else(|| format!("{what} has no number"))?;

@@ -246,6 +246,27 @@ pub struct Command {
     pub harmless: bool,
 }
 
+impl Command {
+    /// Whether two commands are the same but for the numbers of their blocks, blanks and small letters.
+    pub fn is_same_as(&self, other: &Self) -> bool {
+        let plain = |command: &Self| -> String {
+            let code = behind_number(&command.text).split_whitespace();
+            code.collect::<String>().to_ascii_uppercase()
+        };
+        self.text == other.text || plain(self) == plain(other)
+    }
+}
+
+/// What stands behind the number of a block, `N10`, which need not be there.
+pub(crate) fn behind_number(code: &str) -> &str {
+    let code = code.trim_start();
+    let digits = |rest: &&str| rest.starts_with(|c: char| c.is_ascii_digit());
+    match code.strip_prefix(['N', 'n']).filter(digits) {
+        Some(numbered) => numbered.trim_start_matches(|c: char| c.is_ascii_digit()),
+        None => code,
+    }
+}
+
 /// The commands of a template: its lines without their comments, which begin with one of `comments`.
 /// Each is judged by itself.
 pub(crate) fn commands_of(

@@ -111,7 +111,7 @@ fn missing_of<'a>(own: &'a [Command], found: &'a [Command]) -> impl Iterator<Ite
     let mut rest = found;
     let fixed = own.iter().filter(|own| !own.text.contains('{'));
     fixed.filter(move |own| {
-        let place = rest.iter().position(|one| one.text == own.text);
+        let place = rest.iter().position(|one| one.is_same_as(own));
         if let Some(place) = place {
             rest = &rest[place + 1..];
         }
@@ -125,7 +125,7 @@ fn beside_own(found: Vec<Command>, own: Vec<Command>) -> impl Iterator<Item = Co
     // What is harmless in the recipe's place may not be so at the place of the file.
     let mut own = own.into_iter().filter(|own| !own.harmless).peekable();
     let found = found.into_iter().filter(|one| !one.harmless);
-    found.filter(move |one| own.next_if(|own| own.text == one.text).is_none())
+    found.filter(move |one| own.next_if(|own| own.is_same_as(&one)).is_none())
 }
 
 /// The commands of a template, or of the text that was made from one, each judged at its place.

@@ -3,6 +3,7 @@
 use crate::axes::NAMES;
 use crate::fixed_point::{ONE, number};
 use crate::g_code::Groups;
+use crate::post::behind_number;
 
 /// Coefficients of a cubic.
 const COEFFICIENTS: usize = 4;
@@ -88,7 +89,7 @@ impl Block {
 pub(super) fn feed_axes(code: &str) -> Option<String> {
     let code: String = code.split_whitespace().collect();
     let code = code.to_ascii_uppercase();
-    let axes = code.strip_prefix("#FGROUP")?;
+    let axes = behind_number(&code).strip_prefix("#FGROUP")?;
     match axes
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'))

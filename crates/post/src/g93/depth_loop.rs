@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::fixed_point::{ONE, number};
 use crate::g_code::without_comments;
-use crate::post::DepthLoop;
+use crate::post::{DepthLoop, behind_number};
 
 /// Most turns of a loop that are played: far more than any part is cut with.
 const MOST_TURNS: usize = 2000;
@@ -57,6 +57,7 @@ enum Statement {
 impl DepthLoop for WhileLoop {
     fn read(&mut self, code: &str, ends: bool) -> Result<(), String> {
         let code = without_comments(code)?;
+        let code = behind_number(&code);
         if code.is_empty() {
             return Ok(());
         }

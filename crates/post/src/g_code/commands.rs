@@ -1,10 +1,13 @@
 //! The commands of headers and footers.
 
-use crate::post::{Command, commands_of};
+use crate::post::{Command, behind_number, commands_of};
 
 /// The commands of a template, of which these words are harmless. A second `%` ends the program.
 pub(crate) fn commands(template: &str, harmless: &[&str]) -> Vec<Command> {
-    let is_harmless = |code: &str| code.split_whitespace().all(|word| harmless.contains(&word));
+    let is_harmless = |code: &str| {
+        let code = behind_number(code).to_ascii_uppercase();
+        code.split_whitespace().all(|word| harmless.contains(&word))
+    };
     let mut commands = commands_of(template, &[";"], is_harmless);
     let ends = commands.iter_mut().filter(|command| command.text == "%");
     ends.skip(1).for_each(|command| command.harmless = false);

@@ -45,7 +45,7 @@ use turnpath_core::toolpath::SegmentShape;
 use crate::digits::{DigitSegment, Digits};
 use crate::g_code::push_travel;
 use crate::part_name::{PartLines, PartName, PartNames, PartNumbers};
-use crate::post::{Command, Dialect, Grammar, Post, commands_of};
+use crate::post::{Command, Dialect, Grammar, Post, behind_number, commands_of};
 use crate::program_error::ProgramError;
 use crate::program_format::{FeedMeaning, ProgramFormat};
 use crate::settings::{
@@ -169,7 +169,10 @@ impl Dialect for Poly {
     }
 
     fn commands(&self, template: &str) -> Vec<Command> {
-        let is_harmless = |code: &str| code.split_whitespace().all(|word| HARMLESS.contains(&word));
+        let is_harmless = |code: &str| {
+            let code = behind_number(code).to_ascii_uppercase();
+            code.split_whitespace().all(|word| HARMLESS.contains(&word))
+        };
         commands_of(template, &[";"], is_harmless)
     }
 

@@ -150,10 +150,10 @@ impl Grammar for PolyGrammar {
                 }
                 "UPATH" => self.modes.by_parameter = true,
                 "G64" => self.modes.goes_on = true,
-                "G1" if self.axes.is_some() => {
+                "G1" | "G01" if self.axes.is_some() => {
                     return Err("`G1` ends the path of polynomials".to_owned());
                 }
-                "G1" => is_straight = true,
+                "G1" | "G01" => is_straight = true,
                 "POLY" => self.poly = true,
                 word => match word.as_bytes() {
                     [b'P', b'O', b'[', ..] => {
