@@ -13,6 +13,9 @@ use crate::{Centres, Compensator, Cut, Result};
 const ROUNDS: usize = 16;
 /// A feed that changes by less than this part of itself is found.
 const SETTLED: f64 = 1e-8;
+/// By how much rounding may err in a cusp, as a part of the height at which it lies. This is about four times
+/// what it errs by. A smaller part would let searches far from height 0 follow noise, down to half the feed.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// The largest factor by which one round changes a feed. Where the nose fills a hollow, cusps say
 /// little about it.
 const LARGEST_STEP: f64 = 2.0;
@@ -60,26 +63,26 @@ impl Neighbours<'_> {
             let passes: Vec<FeedSearch> = open.iter().map(OpenSearch::pass).collect();
             let mut cusps = self.cusps_of_any(&passes).into_iter();
             open.retain_mut(|search| {
-                let cusp = cusps.next().unwrap_or(f64::NAN);
+                let cusp = cusps.next().unwrap_or(Cusp::NONE);
                 search.try_another(cusp, residual)
             });
         }
     }
 
-    /// The heights of the cusps, mm; NaN where there is none. A place that the surface refuses does
-    /// not spoil the others.
-    fn cusps_of_any(&self, passes: &[FeedSearch]) -> Vec<f64> {
+    /// The cusps; NaN where there is none. A place that the surface refuses does not spoil the others.
+    fn cusps_of_any(&self, passes: &[FeedSearch]) -> Vec<Cusp> {
         if let Ok(cusps) = self.cusps(passes) {
             return cusps;
         }
         let alone = |pass: &FeedSearch| {
             let cusp = self.cusps(std::slice::from_ref(pass));
-            cusp.map_or(f64::NAN, |cusp| cusp.first().copied().unwrap_or(f64::NAN))
+            let cusp = cusp.ok().and_then(|cusp| cusp.first().copied());
+            cusp.unwrap_or(Cusp::NONE)
         };
         passes.iter().map(alone).collect()
     }
 
-    fn cusps(&self, passes: &[FeedSearch]) -> Result<Vec<f64>> {
+    fn cusps(&self, passes: &[FeedSearch]) -> Result<Vec<Cusp>> {
         let theta: Vec<f64> = passes.iter().map(|pass| pass.theta).collect();
         let aside = |side: f64| passes.iter().map(move |pass| pass.rho + side * pass.feed);
         let first = self.noses(&theta, &aside(-0.5).collect::<Vec<_>>())?;
@@ -92,7 +95,12 @@ impl Neighbours<'_> {
             .collect();
         let between = first.iter().zip(&second);
         let feet = between.map(|(one, two)| 0.5 * (one.foot + two.foot));
-        self.heights(&theta, &tips, feet.collect())
+        let heights = self.heights(&theta, &tips, feet.collect())?;
+        let cusp = |(height, tip): (f64, &[f64; 2])| Cusp {
+            height,
+            rounding: ROUNDING * tip[1].abs(),
+        };
+        Ok(heights.into_iter().zip(&tips).map(cusp).collect())
     }
 
     /// The noses at each (θ, ρ).
@@ -141,6 +149,23 @@ impl Neighbours<'_> {
         }
         Ok(heights)
     }
+}
+
+/// A cusp.
+#[derive(Clone, Copy)]
+struct Cusp {
+    /// Its height above the profile, mm.
+    height: f64,
+    /// By how much rounding may err in the height, mm.
+    rounding: f64,
+}
+
+impl Cusp {
+    /// Where passes have no place or do not meet.
+    const NONE: Self = Self {
+        height: f64::NAN,
+        rounding: 0.0,
+    };
 }
 
 /// A nose at its place.
@@ -205,7 +230,10 @@ impl<'a> OpenSearch<'a> {
     }
 
     /// Chooses another feed, as the present one has this cusp. False if the search ends.
-    fn try_another(&mut self, cusp: f64, residual: f64) -> bool {
+    fn try_another(&mut self, cusp: Cusp, residual: f64) -> bool {
+        // Steps below the noise of a cusp lead nowhere.
+        let settled = SETTLED.max(cusp.rounding / residual);
+        let cusp = cusp.height;
         if cusp.is_nan() {
             return false;
         }
@@ -217,7 +245,7 @@ impl<'a> OpenSearch<'a> {
             self.high = self.high.min(feed);
         }
         let better = self.better(cusp, residual).min(self.found.cap);
-        let has_settled = (better - feed).abs() <= SETTLED * feed;
+        let has_settled = (better - feed).abs() <= settled * feed;
         if has_settled {
             self.found.feed = better;
         } else if is_low {
@@ -359,6 +387,10 @@ mod tests {
     /// The feed that a search finds where cusps follow a law of the feed, and how many feeds it tries. It
     /// begins at 0.02 mm.
     fn search_by(law: impl Fn(f64) -> f64) -> (f64, usize) {
+        search_with_rounding(0.0, law)
+    }
+
+    fn search_with_rounding(rounding: f64, law: impl Fn(f64) -> f64) -> (f64, usize) {
         let mut pass = FeedSearch {
             theta: 0.0,
             rho: 1.0,
@@ -370,7 +402,8 @@ mod tests {
         while tried < ROUNDS {
             tried += 1;
             let feed = search.feed;
-            if !search.try_another(law(feed), RESIDUAL) {
+            let height = law(feed);
+            if !search.try_another(Cusp { height, rounding }, RESIDUAL) {
                 break;
             }
             let step = search.feed / feed;
@@ -405,6 +438,19 @@ mod tests {
         check(|feed| (feed - 0.018).max(0.0) * 0.02, 0.028, 8);
         let offset = |feed: f64| 1e-6 + (feed - 0.015).squared();
         check(offset, 0.015 + 1.99e-4f64.sqrt(), 8);
+    }
+
+    /// As over a part a kilometre away from height 0.
+    #[test]
+    fn a_search_ends_where_cusps_differ_by_rounding_alone() {
+        for offset in 0..1000 {
+            let height = 1e6 + f64::from(offset) * 0.01;
+            let law = |feed: f64| (height + 0.3 * feed.squared()) - height;
+            let (feed, tried) = search_with_rounding(ROUNDING * height, law);
+            let wanted = (RESIDUAL / 0.3).sqrt();
+            assert!((feed / wanted - 1.0).abs() < 1e-5, "{feed} for {wanted}");
+            assert!(tried <= 3, "{tried} feeds at {height}");
+        }
     }
 
     #[test]

@@ -17,6 +17,10 @@ const MOST_CELLS_OVER_SEAMS: usize = FEWEST_CELLS;
 const TABLE_COST: f64 = 1e-4;
 /// Where a cell is probed, as a part of its width. The golden section is in step with nothing.
 const PROBE: f64 = 0.381_966;
+/// A probe that lies below its floor by less than this part of F lowers the floors of its cell, but does not
+/// halve the cells. Searches for F end with steps of this size, and over a flat part F differs by rounding
+/// alone. What a ripple in step with the cells takes away unseen is far below the margin of any law.
+const UNSEEN: f64 = 1e-8;
 /// Parts of a cell, each with a floor of its own. They give more borders without more evaluations.
 pub const FLOORS: usize = 8;
 
@@ -97,7 +101,7 @@ impl FeedTable {
         while table.cells() < most {
             let is_dear = table.cost() > TABLE_COST;
             if !is_dear && !table.lower_floors(feeds_at)? {
-                // No probe lies below its floor.
+                // No probe lies below its floor by more than searches for F leave open.
                 return Ok(table);
             }
             table.halve(feeds_at)?;
@@ -109,7 +113,7 @@ impl FeedTable {
 
     /// Probes every cell at an inner point that is out of step with the borders, so that a ripple
     /// in step with the cells shows there. Lowers the floors of the cells in which F lies below
-    /// them, and returns whether there were any.
+    /// them, and returns whether it lies below any of them by more than [`UNSEEN`].
     fn lower_floors(&mut self, feeds_at: &FeedsAt<'_>) -> Result<bool> {
         let probe = |cell: usize| self.from + (cell as f64 + PROBE) * self.step;
         let probes: Vec<f64> = (0..self.cells()).map(probe).collect();
@@ -120,7 +124,7 @@ impl FeedTable {
         {
             let floor = floors.get((PROBE * FLOORS as f64) as usize).copied();
             if let Some(through) = floor.map(|floor| floor - found).filter(|by| *by > 0.0) {
-                any = true;
+                any |= through > UNSEEN * found;
                 for floor in floors {
                     *floor = (*floor - 2.0 * through).max(0.5 * found);
                 }
@@ -256,4 +260,61 @@ pub fn least_feeds_at(locus: &dyn Locus, residual: f64, radii: &[f64]) -> Result
     let measure: &Measure<'_> =
         &|theta, rho, out| locus.residual_feed(residual, radial, theta, rho, out);
     least_over_angles_at(measure, radii)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::Scalar;
+
+    const RANGE: RadialRange = RadialRange {
+        inner: 0.0,
+        outer: 2.0,
+    };
+
+    /// The table of a feed, and at how many radii it asked for the feed.
+    fn tabulated(feed: impl Fn(f64) -> f64) -> (FeedTable, usize) {
+        let asked = Cell::new(0);
+        let table = FeedTable::tabulate(RANGE, &|rho| {
+            asked.set(asked.get() + 1);
+            Ok(feed(rho))
+        });
+        (table.unwrap(), asked.get())
+    }
+
+    /// A number between 0 and 1 that is different at each radius.
+    fn noise(rho: f64) -> f64 {
+        let mixed = (rho.to_bits() >> 12).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        (mixed >> 32) as f64 / f64::from(u32::MAX)
+    }
+
+    #[test]
+    fn a_constant_feed_with_rounding_noise_is_asked_for_at_the_first_cells_alone() {
+        for part in [0.0, 1e-15, 1e-12, 1e-9] {
+            let feed = |rho: f64| 0.02 * (1.0 + part * noise(rho));
+            let (table, asked) = tabulated(feed);
+            // The borders of the cells, and a probe in each.
+            assert_eq!(asked, 2 * FEWEST_CELLS + 1, "{part}");
+            for (cell, floors) in table.floor.chunks(FLOORS).enumerate() {
+                let probe = feed((cell as f64 + PROBE) * table.step);
+                let floor = floors[(PROBE * FLOORS as f64) as usize];
+                assert!(floor <= probe, "{part}: {floor} for {probe}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_small_ripple_in_step_with_the_first_cells_halves_them() {
+        let waves = FEWEST_CELLS as f64 / RANGE.outer;
+        let feed = |rho: f64| 0.02 * (1.0 + 1e-7 * Scalar::cos(TAU * waves * rho));
+        let (table, asked) = tabulated(feed);
+        assert!(table.cells() > FEWEST_CELLS && asked > 2 * FEWEST_CELLS + 1);
+        for i in 0..10_000 {
+            let rho = RANGE.outer * (f64::from(i) + 0.5) / 10_000.0;
+            assert!(table.least(rho, rho) <= feed(rho), "{rho}");
+        }
+    }
 }
