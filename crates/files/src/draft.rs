@@ -291,6 +291,10 @@ mod tests {
     fn a_draft_that_is_dropped_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
         drop(Draft::begin(folder.path().join("result.txt")).unwrap());
+        let mut draft = Draft::begin(folder.path().join("result.txt")).unwrap();
+        draft.read_while_written();
+        draft.write_all(&vec![b'a'; 3 * BUFFER]).unwrap();
+        drop(draft);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 

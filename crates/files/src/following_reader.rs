@@ -3,6 +3,8 @@
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::{self, JoinHandle};
 
@@ -10,12 +12,13 @@ use crate::read_back::ReadBack;
 
 /// The thread that reads a file back, as far as it is written.
 pub struct FollowingReader {
-    /// Where the file ends so far; `None` once it gets no more bytes.
-    ends: Option<Sender<u64>>,
-    reading: Option<JoinHandle<Reading>>,
+    /// Tells the thread how long the file is.
+    lengths: Option<Sender<u64>>,
+    is_given_up: Arc<AtomicBool>,
+    thread: Option<JoinHandle<Reading>>,
 }
 
-/// How far the file was read.
+/// The file and what was read of it, or why it cannot be read.
 type Reading = io::Result<(File, ReadBack)>;
 
 impl FollowingReader {
@@ -25,19 +28,22 @@ impl FollowingReader {
     /// When the file cannot be opened, or the system has no thread.
     pub fn begin(path: &Path) -> io::Result<Self> {
         let file = File::open(path)?;
-        let (ends, later_ends) = mpsc::channel();
-        let reading = thread::Builder::new().spawn(move || follow(file, &later_ends))?;
+        let (sender, lengths) = mpsc::channel();
+        let is_given_up = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&is_given_up);
+        let thread = thread::Builder::new().spawn(move || follow(file, &lengths, &seen))?;
         Ok(Self {
-            ends: Some(ends),
-            reading: Some(reading),
+            lengths: Some(sender),
+            is_given_up,
+            thread: Some(thread),
         })
     }
 
-    /// Says where the file ends now.
-    pub fn go_to(&self, end: u64) {
-        if let Some(ends) = &self.ends {
+    /// Says how long the file is now.
+    pub fn go_to(&self, length: u64) {
+        if let Some(lengths) = &self.lengths {
             // A reader that has failed says so in the end.
-            let _ = ends.send(end);
+            let _ = lengths.send(length);
         }
     }
 
@@ -46,30 +52,36 @@ impl FollowingReader {
     /// # Errors
     /// When the file could not be read somewhere.
     pub fn finish(mut self) -> io::Result<ReadBack> {
-        let (mut file, mut found) = self.end()?;
+        let reading = self.join();
+        let reading = reading.unwrap_or_else(|| Err(io::Error::other("it was not read back")));
+        let (mut file, mut found) = reading?;
         found.add_all(&mut file)?;
         Ok(found)
     }
 
-    fn end(&mut self) -> Reading {
-        self.ends = None;
-        let reading = self.reading.take().map(JoinHandle::join);
-        let reading = reading.and_then(Result::ok);
-        reading.unwrap_or_else(|| Err(io::Error::other("it was not read back")))
+    /// Waits for the thread; `None` if it has ended by a panic, or was waited for before.
+    fn join(&mut self) -> Option<Reading> {
+        self.lengths = None;
+        let thread = self.thread.take()?;
+        thread.join().ok()
     }
 }
 
-/// A file that is given up is closed before it is removed.
+/// A file that is given up is closed before it is removed, and not read to its end.
 impl Drop for FollowingReader {
     fn drop(&mut self) {
-        let _ = self.end();
+        self.is_given_up.store(true, Ordering::Relaxed);
+        let _ = self.join();
     }
 }
 
-fn follow(file: File, ends: &Receiver<u64>) -> Reading {
+fn follow(file: File, lengths: &Receiver<u64>, is_given_up: &AtomicBool) -> Reading {
     let mut found = ReadBack::default();
-    for end in ends {
-        let new = end.saturating_sub(found.bytes());
+    for length in lengths {
+        if is_given_up.load(Ordering::Relaxed) {
+            break;
+        }
+        let new = length.saturating_sub(found.bytes());
         found.add_all((&file).take(new))?;
     }
     Ok((file, found))
@@ -87,15 +99,21 @@ mod tests {
         let path = folder.path().join("file");
         let mut file = File::create(&path).unwrap();
         let reader = FollowingReader::begin(&path).unwrap();
-        let mut end = 0;
+        let mut length = 0;
         for piece in 0..200u32 {
             let bytes = vec![piece as u8; 1 + 997 * piece as usize];
             file.write_all(&bytes).unwrap();
-            end += bytes.len() as u64;
-            reader.go_to(end);
+            length += bytes.len() as u64;
+            reader.go_to(length);
         }
         file.write_all(b"nobody says that these follow").unwrap();
         let whole = ReadBack::of_file(&path).unwrap();
         assert_eq!(reader.finish().unwrap().contents(), whole.contents());
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_opened_has_no_reader() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(FollowingReader::begin(&folder.path().join("none")).is_err());
     }
 }

@@ -1,7 +1,7 @@
 //! A file with a fast sum of what is written, and the SHA-256 of what reads back.
 
 use std::fmt;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::thread;
@@ -12,6 +12,9 @@ use crate::contents::Contents;
 use crate::following_reader::FollowingReader;
 use crate::operation::{Operation, announce, perform, uninterrupted};
 use crate::read_back::ReadBack;
+
+/// What is said of a file that has other bytes.
+const OTHER: &str = "it does not read back as it was written";
 
 /// A file that is compared with what was written when it is finished. For that a fast sum is enough: nobody
 /// chooses the bytes that a disk damages. It has 128 bits, and takes a tenth of the time of SHA-256.
@@ -37,7 +40,7 @@ impl HashedFile {
     }
 
     /// From now on another thread reads the file back while it is written, so that there is little left to
-    /// read in the end. Without a thread it is read in the end.
+    /// read in the end. Where the file cannot be opened, or there is no thread, it is read in the end.
     pub fn read_while_written(&mut self) {
         self.reader = FollowingReader::begin(&self.path).ok();
         if let Some(reader) = &self.reader {
@@ -45,8 +48,8 @@ impl HashedFile {
         }
     }
 
-    /// Brings the file to the disk, and compares what it has with what was written. The file is read while the
-    /// disk takes it, since the system answers the reading from its memory either way.
+    /// Brings the file to the disk, and compares what it has with what was written. The file, or the rest of it,
+    /// is read while the disk takes it, since the system answers the reading from its memory either way.
     pub fn finish(self) -> io::Result<Contents> {
         let Self {
             file,
@@ -60,8 +63,14 @@ impl HashedFile {
         let sync = || uninterrupted(|| file.sync_all());
         let read_back = || match reader {
             Some(reader) => {
-                perform(Operation::Read, &path, || Ok(()))?;
-                reader.finish()
+                // Who reads by the file and not by its name does not see that another one has cut it short.
+                let length = perform(Operation::Read, &path, || Ok(fs::metadata(&path)?.len()))?;
+                reader
+                    .finish()
+                    .and_then(|found| match found.bytes() == length {
+                        true => Ok(found),
+                        false => Err(io::Error::other(OTHER)),
+                    })
             }
             None => ReadBack::of_file(&path),
         };
@@ -78,7 +87,7 @@ impl HashedFile {
         let (contents, sum) = found?.contents();
         match written.finish_128() == sum {
             true => Ok(contents),
-            false => Err(io::Error::other("it does not read back as it was written")),
+            false => Err(io::Error::other(OTHER)),
         }
     }
 }
@@ -111,6 +120,8 @@ impl Write for HashedFile {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     /// FIPS 180-2, appendices B.1 and B.3.
@@ -173,9 +184,32 @@ mod tests {
             let error = finished(begin_at, b"of another").unwrap_err();
             assert!(error.to_string().contains("read back"), "{error}");
         }
-        let mut file = HashedFile::new(File::create(&path).unwrap(), path.clone());
-        file.read_while_written();
-        file.write_all(b"given up").unwrap();
-        drop(file);
+    }
+
+    /// Whatever was read before.
+    #[test]
+    fn a_file_that_another_cuts_short_or_removes_is_not_finished() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        let spoils: [fn(&Path); 2] = [
+            |path| {
+                File::options()
+                    .write(true)
+                    .open(path)
+                    .unwrap()
+                    .set_len(3)
+                    .unwrap()
+            },
+            |path| fs::remove_file(path).unwrap(),
+        ];
+        for spoil in spoils {
+            let mut file = HashedFile::new(File::create(&path).unwrap(), path.clone());
+            file.read_while_written();
+            file.write_all(&vec![b'a'; 1_000_000]).unwrap();
+            // The reader has most of it by now.
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            spoil(&path);
+            assert!(file.finish().is_err());
+        }
     }
 }

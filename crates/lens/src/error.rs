@@ -83,7 +83,7 @@ pub enum ProblemKind {
         /// The word, shortened.
         key: String,
     },
-    /// A line of a surface stands before the first surface, or behind a line that is of none.
+    /// A line of a surface stands before the first surface, or between surfaces behind a line that is of none.
     #[error(
         "`{key}` is a line of a surface and does not stand with one: such lines follow their `SURF`, \
          with no other line between"

@@ -33,7 +33,7 @@ enum Role {
     Operand,
     /// Something unknown before the surfaces.
     Setting,
-    /// A line of a surface, where no surface is.
+    /// A line of a surface that does not stand with one.
     OfSurface,
     /// Nothing of these.
     Unknown,
@@ -119,7 +119,7 @@ impl<'a> SystemLines<'a> {
             key if is_system(key) => Role::Known,
             _ if self.is_operand(record) => Role::Operand,
             _ if self.is_setting(record) => Role::Setting,
-            key if is_of_surface(key) => Role::OfSurface,
+            key if is_of_surface(key) && !self.is_behind(record) => Role::OfSurface,
             _ => Role::Unknown,
         }
     }

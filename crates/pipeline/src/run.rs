@@ -34,8 +34,8 @@ const LARGE_BATCH: usize = 64;
 const BATCH_POINTS: f64 = 5e5;
 /// Control points of a batch for each thread. More of them take fresh memory, whose first use costs time.
 const POINTS_A_THREAD: f64 = 1.5e5;
-/// The blocks without which a lead-in and the first block cannot be made, since a solver may see some nodes of
-/// the block behind, whose last one ends where the block behind that begins.
+/// The blocks behind the first one that a lead-in and the first block wait for. A solver may see nodes of the
+/// second block. The last step of that block ends where the third one begins.
 const WANTED_FIRST: RangeInclusive<usize> = 1..=2;
 
 /// Makes the path, measures it, and gives it to the sink.

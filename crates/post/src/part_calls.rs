@@ -19,6 +19,8 @@ pub(crate) struct PartCalls<R> {
     called: u32,
     /// Their files.
     files: Vec<String>,
+    /// The numbers in the marks before and behind a part that no main program calls: the file is that part.
+    alone: [Option<u32>; 2],
     /// The main program, while a part of it is read: its lines, its file, and the line of the call.
     pub(crate) caller: Option<(LineReader<R>, PathBuf, u64)>,
     place: Place,
@@ -42,6 +44,7 @@ impl<R> Default for PartCalls<R> {
             said: None,
             called: 0,
             files: Vec::new(),
+            alone: [None; 2],
             caller: None,
             place: Place::Before,
             around: Default::default(),
@@ -79,7 +82,7 @@ impl<R: Read> PartCalls<R> {
     /// Takes a mark of a part; `false` if it is none.
     ///
     /// # Errors
-    /// When the mark is out of order, or when the file is a part and not the program that calls it.
+    /// When the mark is out of order.
     pub(crate) fn take_mark(&mut self, mark: &str) -> Result<bool, String> {
         let ends = mark.strip_prefix("-- end of part ");
         let begins = mark.strip_prefix("-- part ");
@@ -89,12 +92,8 @@ impl<R: Read> PartCalls<R> {
         let number = rest.strip_suffix(" --");
         let number = number.and_then(|number| number.parse::<u32>().ok());
         if self.caller.is_none() {
-            return match number.filter(|_| self.said.is_none()) {
-                Some(number) => Err(format!(
-                    "this file is part {number} of a program: read the main program, which calls it"
-                )),
-                None => Ok(false),
-            };
+            self.alone[usize::from(ends.is_some())] = number;
+            return Ok(false);
         }
         let (from, to) = match ends {
             Some(_) => (Place::Within, Place::Behind),
@@ -113,6 +112,22 @@ impl<R: Read> PartCalls<R> {
     /// Sets the lines of code that stand before and behind those of the part that is read.
     pub(crate) fn expect(&mut self, around: [Vec<String>; 2]) {
         self.around = around.map(VecDeque::from);
+    }
+
+    /// What is wrong with a file, also if it has marks of a part that no main program calls: then that is
+    /// what is wrong, or may be.
+    pub(crate) fn or_part_alone(&self, what: String) -> String {
+        match self.alone {
+            [Some(begin), end] if self.said.is_none() => match end == Some(begin) {
+                true => format!(
+                    "this file is part {begin} of a program: read the main program, which calls it"
+                ),
+                false => format!(
+                    "{what}; if this file is part {begin} of a program: read the main program, which calls it"
+                ),
+            },
+            _ => what,
+        }
     }
 
     /// The files of the parts that were called so far.

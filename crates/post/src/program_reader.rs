@@ -132,7 +132,7 @@ impl<R: Read> ProgramReader<R> {
         ReadError::Line {
             path: self.path.clone(),
             line: self.line.max(1),
-            what,
+            what: self.parts.or_part_alone(what),
         }
     }
 

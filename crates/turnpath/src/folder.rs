@@ -29,8 +29,8 @@ use crate::summary::{PAGE, SUMMARY, own_page};
 /// The table of the path.
 pub const TOOLPATH: &str = "toolpath.csv";
 
-/// From this size on a program is read back while it is written, bytes: a thread takes less time than the
-/// reading of so much.
+/// A program with more text than this is read back while it is written, bytes: a thread takes less time than
+/// the reading of so much.
 const LARGE_PROGRAM: u64 = 1 << 20;
 
 /// Takes a folder for one run alone, however often the run makes its path.

@@ -125,6 +125,11 @@ fn operands_of_the_merit_function_measure_whatever_their_name() {
         let said = refused(passage, &with, "--surface 2");
         assert!(said[0].contains("is not known"), "{with}: {said:?}");
     }
+}
+
+#[test]
+fn a_line_of_a_surface_that_stands_with_none_is_told_as_such() {
+    let ten = "3 1 0 0 0 0 0 0 0 0";
     for (passage, with) in [
         ("SURF 3\n", format!("LUID 1\n  CONI {ten}\nSURF 3\n")),
         ("SURF 3\n", format!("LUID 1\n  IGNR {ten}\nSURF 3\n")),

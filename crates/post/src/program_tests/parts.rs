@@ -168,7 +168,16 @@ fn a_part_alone_is_told_as_a_part() {
         for (number, part) in (1..).zip(&files[1..]) {
             let said = read_all(&layout, vec![part.clone()]).unwrap_err();
             let wanted = format!("this file is part {number} of a program: read the main program");
+            // The first line of a part may need what the part before has said.
             assert!(said.contains(&wanted), "{}: {said}", layout.post.name);
+        }
+        // Whoever writes such a comment into a header, the number of a workpiece, say, makes no part of it.
+        let comment = format!("{} -- Part 12 --\n", layout.post.comment);
+        for files in [files, vec![(main_of(&layout), whole(&layout))]] {
+            let mut named = files.clone();
+            named[0].1.splice(0..0, comment.bytes());
+            let read = read_all(&layout, named).unwrap();
+            assert_eq!(read, read_all(&layout, files).unwrap());
         }
     }
 }
