@@ -98,7 +98,7 @@ fn divide_arcs(mut arcs: &[Arc], part: &Part, spans: &[(f64, f64)], pieces: &mut
     let counts_everywhere = *spans == [EVERYWHERE];
     while let [arc, rest @ ..] = arcs {
         let whole = match counts_everywhere {
-            true => whole_arcs(part, arcs, pieces.longest()),
+            true => whole_arcs(part, arcs, pieces),
             false => 0,
         };
         if whole > 0 {
@@ -114,16 +114,16 @@ fn divide_arcs(mut arcs: &[Arc], part: &Part, spans: &[(f64, f64)], pieces: &mut
     }
 }
 
-/// How many of these arcs, from the first on, meet each other, lie on one side of the part, and are no
-/// longer than `longest`, mm. Nearly all arcs do. An arc of the envelope is never empty.
-fn whole_arcs(part: &Part, arcs: &[Arc], longest: f64) -> usize {
+/// How many of these arcs, from the first on, meet each other, lie on one side of the part, and are one
+/// piece each. Nearly all arcs do. An arc of the envelope is never empty.
+fn whole_arcs(part: &Part, arcs: &[Arc], pieces: &Pieces) -> usize {
     let (rim, hole) = (part.aperture_radius, part.inner_radius);
     let mut end = arcs.first().map(|arc| arc.from);
     let is_whole = |arc: &&Arc| {
         let on_right = hole <= arc.from && arc.to <= rim;
         let on_left = -rim <= arc.from && arc.to <= -hole;
         let meets = end.replace(arc.to) == Some(arc.from);
-        meets && (on_left || on_right) && arc.to - arc.from <= longest
+        meets && (on_left || on_right) && pieces.takes_whole(arc)
     };
     arcs.iter().take_while(is_whole).count()
 }

@@ -149,6 +149,43 @@ fn in_a_ball_the_cusps_are_those_of_circles_on_a_circle() {
     assert_eq!(found.uncut, 0.0);
 }
 
+/// The rim has a slope of 82 degrees. The centres follow a circle of radius r = `ball` − R at equal distances.
+/// A tip lies at the distance d = r cos(δ/2) + √(R² − r² sin²(δ/2)) from the ball's centre, where δ is the angle
+/// between two passes. No pass cuts into the ball.
+#[test]
+fn in_a_steep_ball_nothing_is_cut_below_it() {
+    let (ball, nose, step) = (0.5f64, 0.1f64, 0.024f64);
+    let steepest = 82.0 * DEG;
+    let rim = ball * Scalar::sin_cos(steepest).0;
+    let touch = touch_on(Ball { radius: ball }, rim, nose, true);
+    let centres = ball - nose;
+    let mut points = PathBlock::default();
+    for i in 0..=((steepest / step + 4.0) * 24.0) as usize {
+        let n = i as f64 / 24.0;
+        let (sin, cos) = Scalar::sin_cos(step * (n - 2.0));
+        let rate = centres * step * SPEED / TAU;
+        points.push(ControlPoint {
+            t: n * TAU / SPEED,
+            c: n * TAU,
+            x: centres * sin,
+            z: ball - centres * cos,
+            vc: SPEED,
+            vx: rate * cos,
+            vz: rate * sin,
+        });
+    }
+    let found = machined(&touch, &points);
+    assert!(found.lowest.error.abs() < 0.01 * NM, "{found:?}");
+    let (sin, cos) = Scalar::sin_cos(0.5 * step);
+    let tip = centres * cos + (nose * nose - centres * centres * sin * sin).sqrt();
+    let expected = (ball * ball - rim * rim).sqrt() - (tip * tip - rim * rim).sqrt();
+    assert!(
+        (found.highest.error / expected - 1.0).abs() < 0.01,
+        "{found:?} {expected:e}"
+    );
+    assert_eq!(found.uncut, 0.0);
+}
+
 /// The contacts ρ of the passes are at equal distances f on z = ρ²/(2r). Along the normal the cusps
 /// are f²w²(1 − Rκ)/(8R) high, with w = √(1 + (ρ/r)²) and κ = 1/(r w³). Along z they are w times as
 /// high.
