@@ -80,7 +80,8 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
         let raised = number(program, "/raised_by_nm");
         assert!((error - path - raised).abs() < 1e-6, "{program} {path}");
         assert_cost(program, post, (path, tolerance));
-        let exceeded = program["within_interpolation"] == Value::Bool(false);
+        let judged = ["interpolation", "residual", "coverage"].map(|what| format!("within_{what}"));
+        let exceeded = judged.iter().any(|key| program[key] == false);
         assert!(!exceeded || status == Some(1), "{program}");
         let file = out.join(program["file"].as_str().unwrap());
         let text = fs::read_to_string(&file).unwrap();
@@ -106,6 +107,11 @@ fn all_posts_carry(recipe: &Path, rest: &[&str]) {
             "{}",
             post.name
         );
+        if post.shape == SegmentShape::Linear {
+            for what in ["residual", "coverage"] {
+                assert_eq!(program[what], report[what], "{}", post.name);
+            }
+        }
         assert_eq!(
             report["anomalies"]["count"], 0,
             "{}: {}",
@@ -123,6 +129,7 @@ fn assert_cost(program: &Value, post: &Post, (path, tolerance): (f64, f64)) {
         SegmentShape::Cubic => {
             assert!(raised.abs() < COST_NM, "{name}: {raised}");
             assert!(program["straight_lines"].is_null(), "{program}");
+            assert!(program.get("residual").is_none(), "{program}");
         }
         SegmentShape::Linear => {
             let holds = path <= tolerance;

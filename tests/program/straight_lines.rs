@@ -35,6 +35,8 @@ fn a_path_of_straight_lines_is_carried_as_it_is() {
     let report = said.json();
     let program = &report["programs"][0];
     assert_eq!(program["straight_lines"]["per_segment"], 1.0);
+    // So are its passes.
+    assert!(program.get("residual").is_none(), "{program}");
     // Programs of cubics cannot carry it.
     let said = bench
         .line(&format!(
@@ -97,6 +99,83 @@ fn a_rough_path_leaves_straight_lines_their_share_of_its_own_tolerance() {
         assert!((half..=tolerance).contains(&played), "{program}");
         assert!(program["straight_lines"]["per_segment"].as_f64() > Some(1.0));
     }
+}
+
+/// A part with passes so far apart that the chords of X, which swings within the turn, move them apart by more
+/// than the residual leaves.
+const WIDE_PASSES: &str = r#"format = 1
+
+[part]
+aperture = "2 mm"
+
+[surface]
+use = "astigmatic"
+k = "0.02 /mm"
+
+[tool]
+nose_radius = "1 mm"
+
+[tolerance]
+interpolation = "1 um"
+residual = "500 nm"
+
+[spindle]
+speed = "200 rpm"
+
+[feed]
+use = "ats"
+
+[sampler]
+use = "atpg"
+
+[compensator]
+use = "z-direction"
+
+[velocity]
+use = "triangle-rotary"
+
+[output]
+posts = ["beckhoff-g93", "pmac-pvt"]
+"#;
+
+/// What a program of straight lines leaves is not what its path leaves. `run` says of it what `verify` says of
+/// the file.
+#[test]
+fn straight_lines_that_move_passes_too_far_apart_exceed_the_residual_in_run_and_verify() {
+    let bench = Bench::with(WIDE_PASSES);
+    for (share, status) in [("0.5", 1), ("0.1", 0)] {
+        let set = format!("--set output.beckhoff-g93.chord_share={share}");
+        let run = format!("run recipe.toml -o out-{share} {set}");
+        let report = bench
+            .line(&format!("{run} --format json"))
+            .ends(status)
+            .json();
+        assert_eq!(report["within"]["residual"], true, "{report}");
+        assert_eq!(report["within"]["programs"], status == 0, "{report}");
+        let [lines, cubics] = ["cnc", "pmc"].map(|end| {
+            let file = format!("out-{share}/recipe.{end}");
+            let verify = format!("verify recipe.toml {file} --format json {set}");
+            let status = if end == "cnc" { status } else { 0 };
+            bench.line(&verify).ends(status).json()
+        });
+        let [straight, cubic] = [0_usize, 1].map(|number| &report["programs"][number]);
+        for key in ["residual", "coverage"] {
+            let within = format!("within_{key}");
+            assert_eq!(straight[key], lines[key], "{share}: {straight}");
+            assert_eq!(straight[&within], lines["within"][key], "{share}");
+            // The passes of a program of cubics are those of its path.
+            assert_eq!(cubics["within"][key], true, "{share}");
+            assert!(cubic.get(key).is_none(), "{cubic}");
+            assert!(cubic.get(&within).is_none(), "{cubic}");
+        }
+        assert_eq!(straight["within_residual"], status == 0, "{straight}");
+    }
+    let said = bench.line("run recipe.toml -o out-0.5").ends(1);
+    assert!(said.stdout.contains("EXCEEDED residual\n"), "{said}");
+    assert!(said.stdout.contains("EXCEEDED coverage\n"), "{said}");
+    assert!(said.stdout.contains("a smaller `chord_share`\n"), "{said}");
+    let header = bench.read("out-0.5/recipe.cnc");
+    assert!(header.contains("nm of 500.00 nm, coverage "), "{said}");
 }
 
 /// Nobody has a manual that says what F means on a Moore Nanotech, so no default stands for it.

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::errors::Tolerances;
+use crate::coverage::Coverage;
+use crate::errors::{Residual, Tolerances};
 use crate::unit;
 use crate::verdict::within;
 
@@ -51,6 +52,20 @@ pub struct ProgramReport {
     /// The straight lines; `None` where the program plays cubics.
     #[serde(default)]
     pub straight_lines: Option<StraightLines>,
+    /// Cusps between the program's own passes; `None` where X goes as on the path, so that its passes are
+    /// those of the path.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub residual: Option<Residual>,
+    /// Whether these hold the residual tolerance; `None` without one, or where they are those of the path.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within_residual: Option<bool>,
+    /// What the program's own passes leave uncut; `None` where they are those of the path.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<Coverage>,
+    /// Whether that holds the residual tolerance, or the form in its place; `None` where the passes are those
+    /// of the path, or the path is not meant to cover the part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within_coverage: Option<bool>,
     /// Peak to valley of the machined surface, mm; `None` without a tolerance of form, or where
     /// nothing is cut.
     #[serde(default, rename = "form_error_nm", with = "unit::nm")]
@@ -77,6 +92,12 @@ pub struct ProgramFigures {
     pub interpolation_error: f64,
     /// Largest interpolation error of the path that it carries, mm.
     pub path_error: f64,
+    /// Cusps between the program's own passes; `None` where they are those of the path.
+    pub residual: Option<Residual>,
+    /// What these passes leave uncut.
+    pub coverage: Option<Coverage>,
+    /// Whether the path is meant to cover the part. What stays uncut is then judged.
+    pub covers_part: bool,
     /// The largest step of C's speed at a control point, rad/s, where the controller keeps it within a
     /// segment.
     pub c_speed_step: Option<f64>,
@@ -94,12 +115,17 @@ impl ProgramReport {
         let ProgramFigures {
             interpolation_error,
             path_error,
+            residual,
+            coverage,
+            covers_part,
             c_speed_step,
             form_error,
             lead_clearance,
             lines,
         } = *figures;
         let holds = |figure: f64, limit: Option<f64>| limit.map(|limit| within(figure, limit));
+        let highest = residual.map(|residual| residual.max.unwrap_or(f64::INFINITY));
+        let uncut = coverage.filter(|_| covers_part);
         Self {
             file,
             post: post.to_owned(),
@@ -111,6 +137,11 @@ impl ProgramReport {
                 lines,
                 per_segment: f64::NAN,
             }),
+            residual,
+            within_residual: highest.and_then(|highest| holds(highest, tolerance.residual)),
+            coverage,
+            within_coverage: uncut
+                .and_then(|uncut| holds(uncut.largest(), tolerance.most_material())),
             form_error,
             within_form: holds(form_error.unwrap_or(f64::INFINITY), tolerance.form),
             lead_clearance,
@@ -136,9 +167,70 @@ impl ProgramReport {
     pub fn holds(&self) -> bool {
         let verdicts = [
             self.within_interpolation,
+            self.within_residual,
+            self.within_coverage,
             self.within_form,
             self.within_lead,
         ];
         !verdicts.contains(&Some(false))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coverage::Uncut;
+    use crate::errors::LeftOut;
+    use crate::place::PathPlace;
+
+    const TOLERANCE: Tolerances = Tolerances {
+        interpolation: Some(1e-3),
+        residual: Some(500e-6),
+        form: None,
+        servo: None,
+    };
+
+    fn report(height: Option<f64>, covers_part: bool) -> ProgramReport {
+        let residual = height.map(|height| Residual {
+            max: Some(height),
+            at: PathPlace { c: 0.0, x: 0.0 },
+            left_out: LeftOut::Nothing,
+        });
+        let coverage = height.map(|height| Coverage {
+            rim: Some(Uncut {
+                height: Some(height),
+                c: 0.0,
+            }),
+            ..Coverage::default()
+        });
+        let figures = ProgramFigures {
+            interpolation_error: 650e-6,
+            path_error: 480e-6,
+            residual,
+            coverage,
+            covers_part,
+            c_speed_step: None,
+            form_error: None,
+            lead_clearance: None,
+            lines: height.map(|_| 1000),
+        };
+        ProgramReport::new("q.cnc".to_owned(), "beckhoff-g93", &figures, &TOLERANCE)
+    }
+
+    #[test]
+    fn passes_of_a_programs_own_are_judged_and_those_of_its_path_are_not() {
+        let exceeds = report(Some(502e-6), true);
+        assert_eq!(exceeds.within_residual, Some(false));
+        assert_eq!(exceeds.within_coverage, Some(false));
+        assert!(!exceeds.holds());
+        assert!(report(Some(499e-6), true).holds());
+        // A path that is not meant to cover the part may leave its edges uncut.
+        assert_eq!(report(Some(502e-6), false).within_coverage, None);
+        let of_path = report(None, true);
+        assert!(of_path.holds());
+        let text = serde_json::to_string(&of_path).unwrap();
+        for key in ["residual", "coverage"] {
+            assert!(!text.contains(key), "{text}");
+        }
     }
 }

@@ -176,7 +176,8 @@ fn peak_place(peak: &Peak) -> PathPlace {
     place(peak.at_c, peak.at_x)
 }
 
-fn residual(figures: &ResidualFigures, overrun: report::Overrun) -> report::Residual {
+/// The cusps of a path, which runs so far beyond the part.
+pub fn residual(figures: &ResidualFigures, overrun: report::Overrun) -> report::Residual {
     report::Residual {
         max: figures.highest(),
         at: place(figures.at_theta, figures.at_rho),
@@ -188,7 +189,8 @@ fn residual(figures: &ResidualFigures, overrun: report::Overrun) -> report::Resi
     }
 }
 
-fn coverage(figures: &CoverageFigures) -> report::Coverage {
+/// What a path leaves uncut.
+pub fn coverage(figures: &CoverageFigures) -> report::Coverage {
     let uncut = |uncut: Option<UncutHeight>| {
         uncut.map(|uncut| report::Uncut {
             height: Some(uncut.height).filter(|height| height.is_finite()),

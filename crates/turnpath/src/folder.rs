@@ -19,7 +19,7 @@ use crate::diagnosis::not_carried;
 use crate::error::Error;
 use crate::job::Job;
 use crate::plots::{PlayedPath, Plots, draw};
-use crate::program::{Frame, Program, ProgramText};
+use crate::program::{CarriedPath, Frame, Program, ProgramText};
 use crate::program_room::ProgramRoom;
 
 use crate::sinks::SinkError;
@@ -253,8 +253,11 @@ impl<'a> FolderSink<'a> {
             points,
         };
         let touch = job.preparation.touch.clone();
-        let path_error = outcome.figures.playback.max();
-        let report = program.measure(text, (&job.recipe, touch), path_error, observer)?;
+        let carried = CarriedPath {
+            error: outcome.figures.playback.max(),
+            shape: job.shape(),
+        };
+        let report = program.measure(text, (&job.recipe, touch), carried, observer)?;
         drop(reader);
         let frame = program.frame(&job.recipe, outcome, points, &report);
         let mut drafts = Vec::new();

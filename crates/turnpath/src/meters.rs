@@ -136,7 +136,8 @@ impl Meters for PathMeters {
     }
 }
 
-/// What measures a motion program on its own text: the figures that digits and times can change.
+/// What measures a motion program on its own text: the figures that digits and times can change, and what
+/// straight lines can change where they stand for cubics.
 pub struct ProgramMeters {
     /// Its cutting section.
     pub cut: ProgramMeter,
@@ -167,12 +168,19 @@ impl ProgramMeters {
         self.speed_steps = c_is_even.then(SpeedSteps::default);
         self
     }
+
+    /// The same with what the passes leave, for a program whose passes are not those of its path.
+    pub fn with_passes(mut self, recipe: &Recipe) -> Self {
+        let counts_centre = Overrun::from(recipe.overrun).covers_centre();
+        self.cut = self.cut.measuring_passes(counts_centre);
+        self
+    }
 }
 
 /// The figures of a block of a program.
 pub enum ProgramBlock {
     /// Of the cut.
-    Cut(ProgramBlockFigures),
+    Cut(Box<ProgramBlockFigures>),
     /// Of a lead.
     Lead(Box<LeadBlockFigures>),
 }
@@ -199,7 +207,7 @@ impl Meters for ProgramMeters {
         (): (),
     ) -> Result<ProgramBlock, StrategyError> {
         Ok(match section {
-            Section::Cutting => ProgramBlock::Cut(self.cut.measure(&points)?),
+            Section::Cutting => ProgramBlock::Cut(Box::new(self.cut.measure(&points)?)),
             Section::LeadIn | Section::LeadOut => {
                 let figures = LeadMeter::measure(self.cut.touch(), &points)?;
                 ProgramBlock::Lead(Box::new(figures))
@@ -209,10 +217,12 @@ impl Meters for ProgramMeters {
 
     fn append(&mut self, block: ProgramBlock) -> Result<(), StrategyError> {
         match block {
-            ProgramBlock::Cut(figures) => self.cut.append(figures),
-            ProgramBlock::Lead(figures) => self.lead.append(&figures),
+            ProgramBlock::Cut(figures) => self.cut.append(*figures),
+            ProgramBlock::Lead(figures) => {
+                self.lead.append(&figures);
+                Ok(())
+            }
         }
-        Ok(())
     }
 }
 

@@ -12,14 +12,14 @@ use turnpath_post::{
 };
 use turnpath_recipe::{Recipe, Spanned, ZReference};
 use turnpath_report::text::verified_figures;
-use turnpath_report::{AxisNotes, ProgramFigures, ProgramReport, Tolerances};
+use turnpath_report::{AxisNotes, Overrun, ProgramFigures, ProgramReport, Tolerances};
 use turnpath_verify::FirstTouch;
 
 use crate::axis_notes::axis_notes;
 use crate::depths::refuse_depths;
 use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
-use crate::figures::{form_error, tolerances};
+use crate::figures::{coverage, form_error, residual, tolerances};
 use crate::meters::{BLOCK_ROWS, ProgramMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
 
@@ -48,6 +48,14 @@ pub struct ProgramText<'a> {
     pub name: &'a Path,
     /// The points that were written.
     pub points: u64,
+}
+
+/// The path that a program carries.
+pub struct CarriedPath {
+    /// Its largest interpolation error, mm.
+    pub error: f64,
+    /// What is played between its control points.
+    pub shape: SegmentShape,
 }
 
 /// What stands around the lines of a program.
@@ -224,13 +232,13 @@ impl Program {
         }
     }
 
-    /// Measures the program on the text of its path, which `text` reads; `path_error` is the largest
-    /// interpolation error of the path that it carries.
+    /// Measures the program on the text of its path, which `text` reads. Straight lines in place of a
+    /// path's cubics move its passes, so what these leave is measured too.
     pub fn measure(
         &self,
         text: ProgramText<'_>,
         (recipe, touch): (&Recipe, FirstTouch),
-        path_error: f64,
+        path: CarriedPath,
         observer: &dyn Observer,
     ) -> Result<ProgramReport, Error> {
         let ProgramText {
@@ -240,8 +248,11 @@ impl Program {
         } = text;
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
         let meters = ProgramMeters::new(recipe, touch);
-        let meters = meters.with_speed_steps(self.layout.post.c_is_even);
+        let mut meters = meters.with_speed_steps(self.layout.post.c_is_even);
         let shape = self.layout.format.shape();
+        if shape != path.shape {
+            meters = meters.with_passes(recipe);
+        }
         let measured = measure(recipe, meters, shape, reader, observer)?;
         let found = reader.read_count().points();
         if found != points {
@@ -255,15 +266,19 @@ impl Program {
         rate.map_err(|error| not_carried(recipe, error))?;
         let failed = |error| of_measure(recipe, error);
         let form = measured.cut.form().map_err(failed)?;
+        let passes = measured.cut.passes().map_err(failed)?;
+        let overrun = Overrun::from(recipe.overrun);
         let lead_clearance = measured.lead.figures().map(|lead| lead.clearance);
         let figures = ProgramFigures {
             interpolation_error: measured.cut.playback().max(),
-            path_error,
+            path_error: path.error,
+            residual: passes.map(|passes| residual(&passes.residual, overrun)),
+            coverage: passes.map(|passes| coverage(&passes.coverage)),
+            covers_part: overrun.covers_part(),
             c_speed_step: measured.speed_steps.map(|steps| steps.largest()),
             form_error: form_error(form.as_ref(), lead_clearance),
             lead_clearance,
-            lines: (self.layout.format.shape() == SegmentShape::Linear)
-                .then(|| points.saturating_sub(1)),
+            lines: (shape == SegmentShape::Linear).then(|| points.saturating_sub(1)),
         };
         let tolerances = tolerances(recipe);
         Ok(ProgramReport::new(

@@ -26,7 +26,7 @@ use crate::outputs::{Destination, Outputs};
 use crate::page::{page_of_run, path_sketch};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
-use crate::program::ProgramText;
+use crate::program::{CarriedPath, ProgramText};
 use crate::remarks::{PathSubject, shortest_segments};
 use crate::rough_paths::{RoughJob, can_be_in_result};
 use crate::sinks::{RowCount, SinkError, of_run};
@@ -156,8 +156,11 @@ impl Job {
                 points,
             };
             let touch = self.preparation.touch.clone();
-            let path_error = outcome.figures.playback.max();
-            let report = program.measure(text, (&self.recipe, touch), path_error, observer)?;
+            let carried = CarriedPath {
+                error: outcome.figures.playback.max(),
+                shape: self.shape(),
+            };
+            let report = program.measure(text, (&self.recipe, touch), carried, observer)?;
             drop(reader);
             let frame = program.frame(&self.recipe, &outcome, points, &report);
             let size = path.size(&frame.header, &frame.footer);

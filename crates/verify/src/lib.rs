@@ -69,7 +69,7 @@ pub use order::in_order;
 pub use part_edge::UncutHeight;
 pub use playback::PlaybackFigures;
 pub use points::PointFigures;
-pub use program_meter::{ProgramBlockFigures, ProgramMeter};
+pub use program_meter::{PassFigures, ProgramBlockFigures, ProgramMeter};
 pub use residual::{ResidualFigures, SECTIONS, cusp_heights};
 pub use servo::{FollowingError, ServoBlockFigures, ServoFigures, ServoMeter, ServoStart};
 pub use sketch::{PathSketch, SpiralSample, TurnMotion};

@@ -20,10 +20,7 @@ pub fn coverage(
     let mut texts = Vec::new();
     let allowed = tolerance.most_material().unwrap_or(f64::INFINITY);
     if let Some(holds) = verdict {
-        texts.push(match coverage.largest() {
-            largest if largest.is_finite() => against(largest, allowed, holds),
-            _ => NOT_REACHED.to_owned(),
-        });
+        texts.push(most_uncut(coverage, allowed, holds));
     }
     for (name, uncut) in coverage.edges() {
         if !within(uncut.height.unwrap_or(f64::INFINITY), allowed) {
@@ -43,6 +40,14 @@ pub fn coverage(
     let labels = std::iter::once("coverage").chain(std::iter::repeat(""));
     let lines = labels.zip(&texts).map(|(label, text)| line(label, text));
     lines.collect()
+}
+
+/// The largest height that stays uncut against the one that may stay, mm.
+pub fn most_uncut(coverage: &Coverage, allowed: f64, holds: bool) -> String {
+    match coverage.largest() {
+        largest if largest.is_finite() => against(largest, allowed, holds),
+        _ => NOT_REACHED.to_owned(),
+    }
 }
 
 fn edge(name: &str, uncut: &Uncut, overrun: Overrun) -> String {

@@ -7,8 +7,10 @@ use turnpath_core::{DEG, printable_line};
 use crate::errors::Tolerances;
 use crate::program::ProgramReport;
 use crate::run::RunReport;
+use crate::verdict::Verdict;
 
 use super::commands::commands;
+use super::coverage::most_uncut;
 use super::lead::lead;
 use super::numbers::{LABEL, against_any, duration, grouped, line, significant, small_length};
 use super::path::path;
@@ -45,7 +47,7 @@ pub fn run(report: &RunReport, files: &[PathBuf]) -> String {
     }
     text += &unreached(report.unreached.as_ref());
     for one in &report.programs {
-        text += &program(one, tolerance);
+        text += &program(one, tolerance, verdict);
     }
     for one in &report.rough_paths {
         text += &rough_path(one);
@@ -81,16 +83,21 @@ pub fn verified_figures(program: &ProgramReport, tolerance: &Tolerances) -> Stri
         program.interpolation_error,
         tolerance.interpolation,
     );
+    let residual = program.residual.and_then(|residual| residual.max);
+    let residual = residual.map(|max| figure("residual", max, tolerance.residual));
+    let is_judged = program.within_coverage.is_some();
+    let uncut = program.coverage.filter(|_| is_judged);
+    let uncut = uncut.map(|uncut| figure("coverage", uncut.largest(), tolerance.most_material()));
     let form = program.form_error;
     let form = form.map(|form| figure("form error", form, tolerance.form));
     let clearance = program.lead_clearance;
     let clearance = clearance.map(|height| figure("lead clearance", height, None));
-    let all = [Some(interpolation), form, clearance];
+    let all = [Some(interpolation), residual, uncut, form, clearance];
     all.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-/// The lines on a program: its errors against their tolerances.
-fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
+/// The lines on a program: its errors against their tolerances. `of_path` says which its path holds.
+fn program(program: &ProgramReport, tolerance: &Tolerances, of_path: &Verdict) -> String {
     let (error, holds) = (program.interpolation_error, program.within_interpolation);
     let limit = against_any(error, tolerance.interpolation, holds);
     let mut text = post_line(&program.post, &limit);
@@ -102,6 +109,7 @@ fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
             format!("C keeps its speed within a segment: it steps by up to {step} deg/s"),
         );
     }
+    text += &passes(program, tolerance, of_path);
     if let Some(holds) = program.within_form {
         let limit = against_any(
             program.form_error.unwrap_or(f64::NAN),
@@ -115,6 +123,31 @@ fn program(program: &ProgramReport, tolerance: &Tolerances) -> String {
         text += &line(
             "",
             format!("EXCEEDED: a lead digs {depth} into the wanted surface"),
+        );
+    }
+    text
+}
+
+/// The lines on what a program's own passes leave, where they are not those of its path.
+fn passes(program: &ProgramReport, tolerance: &Tolerances, of_path: &Verdict) -> String {
+    let mut text = String::new();
+    if let Some(max) = program.residual.and_then(|residual| residual.max) {
+        let limit = against_any(max, tolerance.residual, program.within_residual);
+        text += &line("", format!("{limit} residual"));
+    }
+    if let (Some(coverage), Some(holds)) = (&program.coverage, program.within_coverage) {
+        let allowed = tolerance.most_material().unwrap_or(f64::INFINITY);
+        let limit = most_uncut(coverage, allowed, holds);
+        text += &line("", format!("{limit} coverage"));
+    }
+    let verdicts = [
+        (program.within_residual, of_path.residual),
+        (program.within_coverage, of_path.coverage),
+    ];
+    if verdicts.contains(&(Some(false), Some(true))) {
+        text += &line(
+            "",
+            "the path holds it, and more lines come nearer to the path: give the post a smaller `chord_share`",
         );
     }
     text

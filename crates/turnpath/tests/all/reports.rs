@@ -28,6 +28,7 @@ const VARIANTS: &[&[&str]] = &[
         "machine.z_jerk=1 m/s^3",
     ],
     &["part.inner=1 mm", "compensator.use=normal"],
+    &["output.posts=[\"beckhoff-g93\"]"],
     &[
         "tolerance={ form = \"5 um\", servo = \"1 um\" }",
         "servo.bandwidth=60 Hz",
@@ -61,6 +62,10 @@ const PURE: &[&str] = &[
     "blocks",
     "parts",
     "cells",
+    "lines",
+    "per_segment",
+    "position_decimals",
+    "delivered_decimals",
 ];
 /// What a unit in a key ends in.
 const UNITS: &[&str] = &[
