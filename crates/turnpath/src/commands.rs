@@ -125,7 +125,7 @@ fn beside_own(found: Vec<Command>, own: Vec<Command>) -> impl Iterator<Item = Co
     // What is harmless in the recipe's place may not be so at the place of the file.
     let mut own = own.into_iter().filter(|own| !own.harmless).peekable();
     let found = found.into_iter().filter(|one| !one.harmless);
-    found.filter(move |one| own.next_if(|own| own.is_same_as(&one)).is_none())
+    found.filter(move |one| own.next_if(|own| own.is_same_as(one)).is_none())
 }
 
 /// The commands of a template, or of the text that was made from one, each judged at its place.

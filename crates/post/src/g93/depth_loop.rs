@@ -64,7 +64,7 @@ impl DepthLoop for WhileLoop {
         if self.ended {
             return Err("a line behind the end of the loop over depths".to_owned());
         }
-        if let Some(head) = head(&code)? {
+        if let Some(head) = head(code)? {
             let is_in_place = !ends && self.head.is_none();
             self.head = Some(head);
             return match is_in_place {
@@ -88,7 +88,7 @@ impl DepthLoop for WhileLoop {
         if statements.len() >= MOST_STATEMENTS {
             return Err("the loop over depths has too many lines".to_owned());
         }
-        statements.push(statement(&code)?);
+        statements.push(statement(code)?);
         Ok(())
     }
 
