@@ -173,7 +173,10 @@ fn straight_lines_that_move_passes_too_far_apart_exceed_the_residual_in_run_and_
     let said = bench.line("run recipe.toml -o out-0.5").ends(1);
     assert!(said.stdout.contains("EXCEEDED residual\n"), "{said}");
     assert!(said.stdout.contains("EXCEEDED coverage\n"), "{said}");
-    assert!(said.stdout.contains("a smaller `chord_share`\n"), "{said}");
+    assert!(
+        said.stdout.contains("a smaller `chord_share`, so that"),
+        "{said}"
+    );
     let header = bench.read("out-0.5/recipe.cnc");
     assert!(header.contains("nm of 500.00 nm, coverage "), "{said}");
 }

@@ -16,6 +16,8 @@ const SETTLED: f64 = 1e-8;
 /// By how much rounding may err in a cusp, as a part of the height at which it lies. This is about four times
 /// what it errs by. A smaller part would let searches far from height 0 follow noise, down to half the feed.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// The largest part of a feed that the rounding of cusps may leave open.
+const MOST_NOISE: f64 = 1e-2;
 /// The largest factor by which one round changes a feed. Where the nose fills a hollow, cusps say
 /// little about it.
 const LARGEST_STEP: f64 = 2.0;
@@ -232,7 +234,7 @@ impl<'a> OpenSearch<'a> {
     /// Chooses another feed, as the present one has this cusp. False if the search ends.
     fn try_another(&mut self, cusp: Cusp, residual: f64) -> bool {
         // Steps below the noise of a cusp lead nowhere.
-        let settled = SETTLED.max(cusp.rounding / residual);
+        let settled = SETTLED.max((cusp.rounding / residual).min(MOST_NOISE));
         let cusp = cusp.height;
         if cusp.is_nan() {
             return false;

@@ -82,6 +82,8 @@ pub struct Plan<'a> {
     pub start: Start,
     /// Revolutions of a block: [`BLOCK`], or fewer where there are very many nodes.
     block: f64,
+    /// Revolutions of the last block, at least.
+    shortest_last: f64,
     /// Nodes of a revolution where they are densest: of a sequential sampler in the densest block, and of others
     /// at the path's start, middle and end.
     density: f64,
@@ -128,6 +130,7 @@ impl<'a> Plan<'a> {
             time_steps: None,
             start: Start::default(),
             block: BLOCK,
+            shortest_last: SHORTEST_BLOCK,
             density: 0.0,
             sampler,
             sampler_states: Vec::new(),
@@ -195,6 +198,8 @@ impl<'a> Plan<'a> {
         }
         while self.block > 1.0 && 0.5 * self.block * self.density >= NODES_OF_SAMPLED_BLOCK {
             self.block *= 0.5;
+            // In the path the rest of such a block is the end of a long one.
+            self.shortest_last = 0.5 * self.block;
         }
     }
 
@@ -229,7 +234,7 @@ impl<'a> Plan<'a> {
 
     /// Divides the path into blocks, and learns the states of a sequential sampler.
     fn divide(&mut self, observer: &dyn Observer) -> Result<()> {
-        self.block = BLOCK;
+        (self.block, self.shortest_last) = (BLOCK, SHORTEST_BLOCK);
         self.look_at_density()?;
         self.shorten_blocks();
         self.sampler_states = Vec::new();
@@ -316,7 +321,7 @@ impl<'a> Plan<'a> {
     pub fn blocks(&self) -> usize {
         let blocks = (self.law.end() / self.block).ceil() as usize;
         let of_last = self.law.end() - blocks.saturating_sub(1) as f64 * self.block;
-        match of_last < SHORTEST_BLOCK {
+        match of_last < self.shortest_last {
             true => blocks.saturating_sub(1).max(1),
             false => blocks,
         }

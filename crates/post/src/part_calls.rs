@@ -19,8 +19,8 @@ pub(crate) struct PartCalls<R> {
     called: u32,
     /// Their files.
     files: Vec<String>,
-    /// The numbers in the marks before and behind a part that no main program calls: the file is that part.
-    alone: [Option<u32>; 2],
+    /// The number in the mark of a part that no main program calls: the file may be that part.
+    alone: Option<u32>,
     /// The main program, while a part of it is read: its lines, its file, and the line of the call.
     pub(crate) caller: Option<(LineReader<R>, PathBuf, u64)>,
     place: Place,
@@ -44,7 +44,7 @@ impl<R> Default for PartCalls<R> {
             said: None,
             called: 0,
             files: Vec::new(),
-            alone: [None; 2],
+            alone: None,
             caller: None,
             place: Place::Before,
             around: Default::default(),
@@ -92,7 +92,7 @@ impl<R: Read> PartCalls<R> {
         let number = rest.strip_suffix(" --");
         let number = number.and_then(|number| number.parse::<u32>().ok());
         if self.caller.is_none() {
-            self.alone[usize::from(ends.is_some())] = number;
+            self.alone = self.alone.or(number);
             return Ok(false);
         }
         let (from, to) = match ends {
@@ -114,18 +114,12 @@ impl<R: Read> PartCalls<R> {
         self.around = around.map(VecDeque::from);
     }
 
-    /// What is wrong with a file, also if it has marks of a part that no main program calls: then that is
-    /// what is wrong, or may be.
+    /// What is wrong with a file. If it has the mark of a part that no main program calls, that may be it.
     pub(crate) fn or_part_alone(&self, what: String) -> String {
         match self.alone {
-            [Some(begin), end] if self.said.is_none() => match end == Some(begin) {
-                true => format!(
-                    "this file is part {begin} of a program: read the main program, which calls it"
-                ),
-                false => format!(
-                    "{what}; if this file is part {begin} of a program: read the main program, which calls it"
-                ),
-            },
+            Some(number) if self.said.is_none() => format!(
+                "{what}; if this file is part {number} of a program: read the main program, which calls it"
+            ),
             _ => what,
         }
     }

@@ -247,13 +247,16 @@ pub struct Command {
 }
 
 impl Command {
-    /// Whether two commands are the same but for the numbers of their blocks, blanks and small letters.
+    /// Whether two commands are the same but for the numbers of their blocks, blanks and small letters. Within
+    /// quotes and in the call of a function these count.
     pub fn is_same_as(&self, other: &Self) -> bool {
+        let is_plain = |command: &Self| !command.text.contains(['"', '(']);
         let plain = |command: &Self| -> String {
             let code = behind_number(&command.text).split_whitespace();
             code.collect::<String>().to_ascii_uppercase()
         };
-        self.text == other.text || plain(self) == plain(other)
+        self.text == other.text
+            || (is_plain(self) && is_plain(other) && plain(self) == plain(other))
     }
 }
 

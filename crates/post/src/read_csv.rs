@@ -56,7 +56,8 @@ impl<R: Read> PathReader<R> {
         };
         if !header.iter().eq(HEADER) {
             let what = format!(
-                "this is not the header of a tool path, `{}`",
+                "this is not the header of a tool path, `{}`; a program is read as one where its name \
+                 ends as its post has it, `.pmc` for example",
                 HEADER.join(",")
             );
             return Err(ReadError::Line {
@@ -172,7 +173,10 @@ fn from_csv_at(path: &Path, line: u64, error: csv::Error) -> ReadError {
             let column = err.field().and_then(|field| HEADER.get(field as usize));
             format!("{}: {}", column.unwrap_or(&"row"), err.kind())
         }
-        csv::ErrorKind::Utf8 { .. } => "this is not UTF-8 text".to_owned(),
+        csv::ErrorKind::Utf8 { .. } => {
+            "this is not UTF-8 text; of compressed files, programs with `.zst` behind their ending are read"
+                .to_owned()
+        }
         _ => text,
     };
     ReadError::Line { path, line, what }

@@ -20,7 +20,8 @@ pub struct SampledSize {
 
 impl Program {
     /// What the program will take, from a sample of its path: within some percent. What the controller
-    /// does not take is refused as a run refuses it.
+    /// does not take is refused as a run refuses it, but for the rests of steps at the borders of a run's own
+    /// blocks, which a sample does not have.
     pub fn sampled_size(&self, sample: &PathSample) -> Result<SampledSize, NotCarried> {
         let stretches =
             sampled_stretches(sample, |block| Ok(TextSize::of(&self.lines(block)?.text)))?;

@@ -261,10 +261,7 @@ fn term(text: &str) -> Result<Term, String> {
             let name = variable(name).ok_or_else(|| not_a_line(text))?;
             Ok(Term::Variable(name))
         }
-        None => {
-            let digits = text.strip_prefix('+').unwrap_or(text);
-            number(text, digits).map(Term::Number)
-        }
+        None => number(text, text).map(Term::Number),
     }
 }
 

@@ -9,7 +9,8 @@ pub(crate) fn commands(template: &str, harmless: &[&str]) -> Vec<Command> {
         code.split_whitespace().all(|word| harmless.contains(&word))
     };
     let mut commands = commands_of(template, &[";"], is_harmless);
-    let ends = commands.iter_mut().filter(|command| command.text == "%");
+    let is_end = |command: &&mut Command| behind_number(&command.text).trim() == "%";
+    let ends = commands.iter_mut().filter(is_end);
     ends.skip(1).for_each(|command| command.harmless = false);
     commands
 }

@@ -177,7 +177,7 @@ impl Dialect for Poly {
     }
 
     fn ends_program(&self, command: &str) -> bool {
-        let command = command.to_ascii_uppercase();
+        let command = behind_number(command).to_ascii_uppercase();
         command.split_whitespace().any(|word| ENDS.contains(&word))
     }
 }

@@ -231,3 +231,15 @@ fn words_of_a_recipe_that_may_move_something_are_told() {
         .collect();
     assert_eq!(told, [(2, true), (3, false), (4, true)]);
 }
+
+/// The number of a block hides no end of the program.
+#[test]
+fn an_end_behind_the_number_of_its_block_ends_the_program() {
+    let dialect = crate::post_named("siemens-840d-poly").unwrap().dialect;
+    for command in ["M30", "N10M30", "N10 M30", "n10m17", "N5 RET"] {
+        assert!(dialect.ends_program(command), "{command}");
+    }
+    for command in ["N10 G90", "N30", "M0"] {
+        assert!(!dialect.ends_program(command), "{command}");
+    }
+}

@@ -134,6 +134,8 @@ fn passes(program: &ProgramReport, tolerance: &Tolerances, of_path: &Verdict) ->
     if let Some(max) = program.residual.and_then(|residual| residual.max) {
         let limit = against_any(max, tolerance.residual, program.within_residual);
         text += &line("", format!("{limit} residual"));
+    } else if program.within_residual == Some(false) {
+        text += &line("", "residual not measured: no turn has a neighbour");
     }
     if let (Some(coverage), Some(holds)) = (&program.coverage, program.within_coverage) {
         let allowed = tolerance.most_material().unwrap_or(f64::INFINITY);
@@ -147,7 +149,7 @@ fn passes(program: &ProgramReport, tolerance: &Tolerances, of_path: &Verdict) ->
     if verdicts.contains(&(Some(false), Some(true))) {
         text += &line(
             "",
-            "the path holds it, and more lines come nearer to the path: give the post a smaller `chord_share`",
+            "the path holds what the program exceeds: give the post a smaller `chord_share`, so that more lines come nearer to the path",
         );
     }
     text

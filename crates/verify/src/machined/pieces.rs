@@ -131,11 +131,12 @@ impl Pieces {
 
     /// Adds a part of an arc to the last run. It is halved up to so many times, until it is not too steep.
     fn add_in_halves(&mut self, centre: Point, from: f64, to: f64, halvings: usize) {
-        if halvings == 0 || !self.is_too_steep(centre, from, to) {
+        let middle = 0.5 * (from + to);
+        let is_divisible = from < middle && middle < to;
+        if halvings == 0 || !is_divisible || !self.is_too_steep(centre, from, to) {
             self.add_piece(centre, to);
             return;
         }
-        let middle = 0.5 * (from + to);
         self.add_in_halves(centre, from, middle, halvings - 1);
         self.add_in_halves(centre, middle, to, halvings - 1);
     }
@@ -251,6 +252,12 @@ mod tests {
                 assert!(departure < 5.2e-8 * radius, "{pair:?}");
             }
         }
+    }
+
+    #[test]
+    fn an_arc_of_a_rounding_is_one_piece() {
+        let ends = ends(2.0, 2.0, 2.0 + 2.0 * f64::EPSILON);
+        assert!(ends.len() < 5, "{ends:?}");
     }
 
     /// The slope has no bound there.
