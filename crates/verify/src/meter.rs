@@ -5,12 +5,13 @@ use turnpath_core::{Radial, RadialRange, Result};
 
 use crate::axes::AxesMotion;
 use crate::block_playback::BlockPlayback;
-use crate::coverage::{Coverage, CoverageFigures};
+use crate::coverage::CoverageFigures;
 use crate::cutting_speed::CuttingSpeed;
 use crate::machined::{Fan, FormScope, Lines, MachinedFigures, SectionPasses, SurfaceExtremes};
+use crate::measured_passes::MeasuredPasses;
 use crate::playback::{PlaybackFigures, play_back};
 use crate::points::PointFigures;
-use crate::residual::{Passes, ResidualFigures};
+use crate::residual::ResidualFigures;
 use crate::sketch::{BlockSketch, PathSketch, SectionHeights, Sketch};
 use crate::spokes::{BlockSpokes, SpiralArms, Spoke, Spokes};
 use crate::touch::FirstTouch;
@@ -26,17 +27,14 @@ pub struct BlockFigures {
     pub points: PointFigures,
     /// Z − first touch at each control point, mm.
     pub per_point: Vec<f64>,
-    /// Residual within the block.
-    pub residual: ResidualFigures,
     /// Motion of the axes.
     pub axes: AxesMotion,
     /// Cutting speed.
     pub cutting_speed: CuttingSpeed,
-    passes: Passes,
+    passes: MeasuredPasses,
     sections: SectionPasses,
     /// The passes of the real nose, where the path takes its radius as 0.
     real_nose: Option<SectionPasses>,
-    coverage: Coverage,
     spokes: BlockSpokes,
     sketch: BlockSketch,
     ends: Option<[ControlPoint; 2]>,
@@ -67,11 +65,10 @@ pub struct PathFigures {
 pub struct Meter {
     touch: FirstTouch,
     figures: PathFigures,
-    passes: Passes,
+    passes: MeasuredPasses,
     lines: Lines,
     /// The lines of the real nose, where the path takes its radius as 0.
     real_nose: Option<Lines>,
-    coverage: Coverage,
     spokes: Spokes,
     sketch: Sketch,
     counts_centre: bool,
@@ -87,9 +84,8 @@ impl Meter {
             real_nose: real_nose.then(|| Lines::new(Fan::WHOLE)),
             touch,
             figures: PathFigures::default(),
-            passes: Passes::default(),
+            passes: MeasuredPasses::default(),
             lines: Lines::new(Fan::WHOLE),
-            coverage: Coverage::default(),
             spokes: Spokes::default(),
             sketch: Sketch::default(),
             counts_centre: false,
@@ -151,12 +147,10 @@ impl Meter {
             spokes,
             ..BlockFigures::default()
         };
-        block.passes = Passes::of(touch, points)?;
         let mut heights = SectionHeights::default();
-        block.passes.for_each_cusp(touch, |cusp| {
-            block.residual.append(&cusp);
+        block.passes = MeasuredPasses::of(touch, points, |cusp| {
             if wants_sketch {
-                heights.include(&cusp);
+                heights.include(cusp);
             }
         })?;
         if wants_sketch {
@@ -168,7 +162,6 @@ impl Meter {
             let passes = SectionPasses::of_lowest_point(radius, &Fan::WHOLE, points);
             block.real_nose = Some(passes);
         }
-        block.coverage = Coverage::of(touch, points, &block.passes)?;
         Ok(block)
     }
 
@@ -182,18 +175,15 @@ impl Meter {
     /// Appends the path's next block. The block begins with the last control point of the block
     /// before it.
     pub fn append(&mut self, next: BlockFigures) -> Result<()> {
-        let mut joint = ResidualFigures::default();
         let mut joint_heights = SectionHeights::default();
-        self.passes.follow(&self.touch, &next.passes, |cusp| {
-            joint.append(&cusp);
-            joint_heights.include(&cusp);
+        self.passes.append(&self.touch, &next.passes, |cusp| {
+            joint_heights.include(cusp);
         })?;
         let Self {
             figures,
             sketch,
             lines,
             real_nose,
-            coverage,
             spokes,
             ..
         } = self;
@@ -205,14 +195,11 @@ impl Meter {
                 figures.points.include(&next.points);
                 figures.axes.append(&next.axes);
                 figures.cutting_speed.append(&next.cutting_speed);
-                figures.residual.append(&next.residual);
-                figures.residual.append(&joint);
                 sketch.append(&next.sketch, &joint_heights);
                 lines.append(next.sections);
                 if let (Some(lines), Some(passes)) = (real_nose, next.real_nose) {
                     lines.append(passes);
                 }
-                coverage.append(&next.coverage, &next.passes);
             },
         );
         self.ends = match (self.ends, next.ends) {
@@ -287,20 +274,17 @@ impl Meter {
             spiral: self.sketch.spiral(),
             turns: self.sketch.turns(),
             residual: self.sketch.residual(),
-            edges: self.coverage.edges(&self.touch)?,
+            edges: self.passes.coverage.edges(&self.touch)?,
         })
     }
 
     /// The figures so far.
     pub fn figures(&self) -> Result<PathFigures> {
         let mut figures = self.figures.clone();
-        let (coverage, around_axis) = self.coverage.figures(&self.touch)?;
-        figures.coverage = coverage;
+        let of_passes = self.passes.figures(&self.touch, self.counts_centre)?;
+        (figures.residual, figures.coverage) = (of_passes.residual, of_passes.coverage);
         figures.spoke = self.spokes.largest();
         figures.arms = self.spokes.largest_arms();
-        if self.counts_centre {
-            figures.residual.append(&around_axis);
-        }
         Ok(figures)
     }
 }

@@ -5,10 +5,9 @@
 use turnpath_core::Result;
 use turnpath_core::toolpath::PathBlock;
 
-use crate::coverage::{Coverage, CoverageFigures};
 use crate::machined::{Fan, FormScope, Lines, SectionPasses, SurfaceExtremes};
+use crate::measured_passes::{MeasuredPasses, PassFigures};
 use crate::playback::{PlaybackFigures, play_back};
-use crate::residual::{Passes, ResidualFigures};
 use crate::touch::FirstTouch;
 
 /// The figures of one block of a program's cutting section.
@@ -19,59 +18,6 @@ pub struct ProgramBlockFigures {
     sections: Option<SectionPasses>,
     /// `None` where the passes are not measured.
     passes: Option<MeasuredPasses>,
-}
-
-/// What the passes of a program leave.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PassFigures {
-    /// Residual. It includes the cusps around the axis if [`ProgramMeter::measuring_passes`] says so.
-    pub residual: ResidualFigures,
-    /// The material that stays uncut at the part's edges and around the axis.
-    pub coverage: CoverageFigures,
-}
-
-/// Passes, those of a block or the last ones so far, with what they leave.
-#[derive(Debug, Clone, Default)]
-struct MeasuredPasses {
-    passes: Passes,
-    residual: ResidualFigures,
-    coverage: Coverage,
-}
-
-impl MeasuredPasses {
-    /// Those of one block.
-    fn of(touch: &FirstTouch, points: &PathBlock) -> Result<Self> {
-        let passes = Passes::of(touch, points)?;
-        let mut residual = ResidualFigures::default();
-        passes.for_each_cusp(touch, |cusp| residual.append(&cusp))?;
-        let coverage = Coverage::of(touch, points, &passes)?;
-        Ok(Self {
-            passes,
-            residual,
-            coverage,
-        })
-    }
-
-    /// Appends those of the next block.
-    fn append(&mut self, touch: &FirstTouch, next: &Self) -> Result<()> {
-        let mut joint = ResidualFigures::default();
-        let passes = &mut self.passes;
-        passes.follow(touch, &next.passes, |cusp| joint.append(&cusp))?;
-        self.residual.append(&next.residual);
-        self.residual.append(&joint);
-        self.coverage.append(&next.coverage, &next.passes);
-        Ok(())
-    }
-
-    /// What they leave so far.
-    fn figures(&self, touch: &FirstTouch, counts_centre: bool) -> Result<PassFigures> {
-        let (coverage, around_axis) = self.coverage.figures(touch)?;
-        let mut residual = self.residual;
-        if counts_centre {
-            residual.append(&around_axis);
-        }
-        Ok(PassFigures { residual, coverage })
-    }
 }
 
 /// Measures a program against its subject.
@@ -122,7 +68,7 @@ impl ProgramMeter {
         let playback = play_back(&self.touch, points, &mut Vec::new(), |_| ())?;
         let sections = self.form.map(|_| self.sections(points)).transpose()?;
         let passes = self.passes.as_ref();
-        let passes = passes.map(|_| MeasuredPasses::of(&self.touch, points));
+        let passes = passes.map(|_| MeasuredPasses::of(&self.touch, points, |_| ()));
         Ok(ProgramBlockFigures {
             playback,
             sections,
@@ -153,7 +99,7 @@ impl ProgramMeter {
             self.lines.append(sections);
         }
         match (&mut self.passes, &next.passes) {
-            (Some(passes), Some(next)) => passes.append(&self.touch, next),
+            (Some(passes), Some(next)) => passes.append(&self.touch, next, |_| ()),
             _ => Ok(()),
         }
     }
