@@ -5,6 +5,11 @@
 //! order change, and no two of them are fused. A loop over lanes does for each lane what the loop one
 //! by one does. So the bytes are the same in all registers.
 //! `TURNPATH_LANES=base`, `avx2` or `avx512` in the environment asks for no wider ones than these.
+//!
+//! The compiler may take a loop over groups of eight numbers across its groups: a register then holds one number
+//! of each of eight groups, gathered and scattered one by one, and the loop takes up to six times as long. So a
+//! formula that the compiler can put side by side goes over single numbers, and what turns columns into rows is
+//! not inlined into such loops.
 
 pub use pulp::NullaryFnOnce as Loop;
 
@@ -21,6 +26,18 @@ pub trait LaneLoop: Loop {
     /// The same results, with the same bits, from one number after the other. It must be
     /// `#[inline(always)]`, as the loop over lanes may call it for what does not fill the lanes.
     fn one_by_one(self) -> Self::Output;
+}
+
+/// A [`LaneLoop`] that goes from number to number. The compiler puts numbers side by side where it can.
+pub struct OneByOne<L>(pub L);
+
+impl<L: LaneLoop> Loop for OneByOne<L> {
+    type Output = L::Output;
+
+    #[inline(always)]
+    fn call(self) -> L::Output {
+        self.0.one_by_one()
+    }
 }
 
 /// Runs a loop over lanes in the widest registers; its `call` must be `#[inline(always)]`. An x86 CPU

@@ -32,7 +32,10 @@ pub fn gather<const N: usize>(curves: &[Series], strip: &mut Strip<N>) {
 }
 
 /// Gives the curves the first coefficients of a strip. Those of higher orders stay as they are.
-#[inline(always)]
+///
+/// It is not compiled into loops for wide registers: there the compiler takes instructions that scatter a
+/// register, which take longer than storing its numbers one by one.
+#[inline(never)]
 pub fn scatter<const N: usize>(strip: &Strip<N>, curves: &mut [Series]) {
     for (k, column) in strip.iter().enumerate() {
         for (coefficient, curve) in column.iter().zip(&mut *curves) {

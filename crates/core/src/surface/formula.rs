@@ -18,8 +18,8 @@ pub trait Surface: Send + Sync {
     /// only where this one is true.
     const IN_WIDE_REGISTERS: bool = true;
 
-    /// Whether the compiler puts series of many curves side by side in vector registers. It does so, and
-    /// nothing is faster, if the formula has neither loops nor calls and is marked `#[inline(always)]`:
+    /// Whether the compiler puts many points, and series of many curves, side by side in vector registers. It
+    /// does so, and nothing is faster, if the formula has neither loops nor calls and is marked `#[inline(always)]`:
     /// sums, products, quotients, roots and choices. All ways give the same bits.
     const SIDE_BY_SIDE: bool = true;
 

@@ -8,7 +8,7 @@ mod points;
 use serde::{Deserialize, Serialize};
 
 use crate::orders::SeriesOrders;
-use crate::registers::{LaneLoop, Loop, in_widest, lanes_in_widest};
+use crate::registers::{LaneLoop, Loop, OneByOne, in_widest, lanes_in_widest};
 use crate::{ORDER, Result, Series, StrategyError};
 use curves::{HeightsAlong, InLanes, SlopesAlong};
 use points::{Heights, Slopes};
@@ -97,14 +97,14 @@ pub struct SurfaceData {
 impl<T: Surface> SurfaceModel for T {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        lanes::<T, _>(Heights(self, x, y, z));
+        points::<T, _>(Heights(self, x, y, z));
         Ok(())
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
         let Gradients { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        lanes::<T, _>(Slopes(self, x, y, out));
+        points::<T, _>(Slopes(self, x, y, out));
         Ok(())
     }
 
@@ -161,12 +161,15 @@ impl<T: Surface> SurfaceModel for T {
     }
 }
 
-/// Runs a loop over lanes.
-fn lanes<T: Surface, L: LaneLoop>(one: L) -> L::Output {
+/// Runs a loop over points.
+fn points<T: Surface, L: LaneLoop>(one: L) -> L::Output {
     // What a constant block rules out is not compiled.
-    match const { T::IN_WIDE_REGISTERS } {
-        true => lanes_in_widest(one),
-        false => one.one_by_one(),
+    if const { !T::IN_WIDE_REGISTERS } {
+        one.one_by_one()
+    } else if const { T::SIDE_BY_SIDE } {
+        in_widest(OneByOne(one))
+    } else {
+        lanes_in_widest(one)
     }
 }
 

@@ -1,4 +1,5 @@
-//! Points through a formula: heights and slopes, several points side by side in vector registers.
+//! Points through a formula: heights and slopes. Formulas with loops or calls take several points side by side in
+//! [lanes](crate::Lanes). Through others the points go one by one, and the compiler puts them side by side.
 
 use super::columns::Gradients;
 use super::formula::Surface;
