@@ -27,20 +27,23 @@ const POWERS: [[f64; SPLINES]; SPLINES] = [
     [-1.0, 5.0, -10.0, 10.0, -5.0, 1.0],
 ];
 
-/// Numbers in a vector register of 512 bits.
-pub const LANES: usize = 8;
+/// Places whose numbers go through the registers together: as many as one of 512 bits holds.
+pub const GROUP: usize = 8;
 
-/// One number for each of the six splines. Two more fill a register and do not count.
-pub type Weights = [f64; LANES];
+/// A number of each place.
+pub type Numbers = [f64; GROUP];
 
-/// Weights before they have numbers.
-pub const NO_WEIGHTS: Weights = [0.0; LANES];
+/// A number of each of the six splines at each place.
+pub type Splines = [Numbers; SPLINES];
+
+/// Splines before they have numbers.
+pub const NO_SPLINES: Splines = [[0.0; GROUP]; SPLINES];
 
 /// `WEIGHTS[d][k][m]`: the coefficient of tᵏ in the derivative of order d of spline m, over d!.
-const WEIGHTS: [[Weights; SPLINES]; SPLINES] = weights();
+const WEIGHTS: [[[f64; SPLINES]; SPLINES]; SPLINES] = weights();
 
-const fn weights() -> [[Weights; SPLINES]; SPLINES] {
-    let mut all = [[[0.0; LANES]; SPLINES]; SPLINES];
+const fn weights() -> [[[f64; SPLINES]; SPLINES]; SPLINES] {
+    let mut all = [[[0.0; SPLINES]; SPLINES]; SPLINES];
     let mut order = 0;
     while order < SPLINES {
         let mut power = 0;
@@ -63,14 +66,28 @@ const fn weights() -> [[Weights; SPLINES]; SPLINES] {
     all
 }
 
-/// The derivative of order `ORDER` of the six splines at t, over `ORDER`!.
+/// The derivatives of order `ORDER` of the six splines at t, over `ORDER`!.
 #[inline(always)]
-pub fn derivative<const ORDER: usize>(t: f64) -> Weights {
+pub fn derivative<const ORDER: usize>(t: &Numbers) -> Splines {
+    // Without a loop over the splines, so that one over the places is left.
+    [
+        derivative_of::<ORDER, 0>(t),
+        derivative_of::<ORDER, 1>(t),
+        derivative_of::<ORDER, 2>(t),
+        derivative_of::<ORDER, 3>(t),
+        derivative_of::<ORDER, 4>(t),
+        derivative_of::<ORDER, 5>(t),
+    ]
+}
+
+/// The same of spline `M`.
+#[inline(always)]
+fn derivative_of<const ORDER: usize, const M: usize>(t: &Numbers) -> Numbers {
     let powers = const { &WEIGHTS[ORDER] };
-    let mut weights = powers[SPLINES - 1 - ORDER];
-    for (m, weight) in weights.iter_mut().enumerate() {
+    let mut weights = [powers[SPLINES - 1 - ORDER][M]; GROUP];
+    for (weight, t) in weights.iter_mut().zip(t) {
         for power in (0..SPLINES - 1 - ORDER).rev() {
-            *weight = *weight * t + powers[power][m];
+            *weight = *weight * t + powers[power][M];
         }
     }
     weights
@@ -78,7 +95,7 @@ pub fn derivative<const ORDER: usize>(t: f64) -> Weights {
 
 /// The first `N` derivatives of the six splines at t, from order 0 on, each over the factorial of its order.
 #[inline(always)]
-pub fn derivatives<const N: usize>(t: f64) -> [Weights; N] {
+pub fn derivatives<const N: usize>(t: &Numbers) -> [Splines; N] {
     const { assert!(N <= SPLINES) }
     let all = [
         derivative::<0>(t),
@@ -104,10 +121,12 @@ mod tests {
         (u * spline(degree - 1, u) + (n + 1.0 - u) * spline(degree - 1, u - 1.0)) / n
     }
 
+    const T: Numbers = [0.0, 0.05, 0.2, 0.3, 0.55, 0.7, 0.9, 0.999];
+
     #[test]
     fn the_splines_are_those_of_cox_and_de_boor() {
-        for t in [0.0, 0.2, 0.55, 0.999] {
-            for (m, weight) in derivative::<0>(t).into_iter().enumerate().take(SPLINES) {
+        for (m, weights) in derivative::<0>(&T).into_iter().enumerate() {
+            for (weight, t) in weights.into_iter().zip(T) {
                 let wanted = spline(5, t + (5 - m) as f64);
                 assert!(
                     (weight - wanted).abs() < 1e-15,
@@ -115,19 +134,21 @@ mod tests {
                 );
             }
         }
-        assert_eq!(derivative::<0>(0.0)[..5], AT_KNOTS);
+        let at_knot = derivative::<0>(&T).map(|weights| weights[0]);
+        assert_eq!(at_knot[..5], AT_KNOTS);
     }
 
     #[test]
     fn derivatives_are_those_of_the_taylor_series() {
-        let (t, step) = (0.3, 0.1);
-        let orders: [_; SPLINES] = derivatives(t);
-        for (m, wanted) in derivative::<0>(t + step).into_iter().enumerate() {
-            let found = orders
-                .iter()
-                .rev()
-                .fold(0.0, |sum, order| sum * step + order[m]);
-            assert!((found - wanted).abs() < 1e-15, "{m}: {found} {wanted}");
+        let step = 0.1;
+        let orders: [_; SPLINES] = derivatives(&T);
+        let moved = derivative::<0>(&T.map(|t| t + step));
+        for (m, wanted) in moved.into_iter().enumerate() {
+            for (place, wanted) in wanted.into_iter().enumerate() {
+                let orders = orders.iter().rev();
+                let found = orders.fold(0.0, |sum, order| sum * step + order[m][place]);
+                assert!((found - wanted).abs() < 1e-15, "{m}: {found} {wanted}");
+            }
         }
     }
 }

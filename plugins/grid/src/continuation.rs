@@ -21,7 +21,9 @@ type Edge = [Vec<f64>; 2];
 
 /// The two columns (rows) whose straight line goes through a place, with their shares.
 #[derive(Clone, Copy)]
-struct Extrapolation {
+pub struct Extrapolation {
+    /// The place, which is whole.
+    at: f64,
     from: [(usize, f64); 2],
     /// Whose [`Edge`] they are, where the place lies beyond all: 0 before the first, 1 behind the last.
     side: Option<usize>,
@@ -52,10 +54,24 @@ impl Continuation {
         }
     }
 
-    /// The coefficient at a column and row, which are whole. `own` has those of the sheet.
-    pub fn at(&self, column: f64, row: f64, own: impl Fn(usize, usize) -> f64) -> f64 {
-        let across = Extrapolation::to(column, self.columns);
-        let down = Extrapolation::to(row, self.rows);
+    /// The way to a column, which is whole.
+    pub fn across(&self, column: f64) -> Extrapolation {
+        Extrapolation::to(column, self.columns)
+    }
+
+    /// The way to a row, which is whole.
+    pub fn down(&self, row: f64) -> Extrapolation {
+        Extrapolation::to(row, self.rows)
+    }
+
+    /// The coefficient at a column and row. `own` has those of the sheet.
+    #[inline]
+    pub fn at(
+        &self,
+        across: &Extrapolation,
+        down: &Extrapolation,
+        own: impl Fn(usize, usize) -> f64,
+    ) -> f64 {
         let mut rest = 0.0;
         for (j, (row, of_row)) in down.from.into_iter().enumerate() {
             for (i, (column, of_column)) in across.from.into_iter().enumerate() {
@@ -67,29 +83,25 @@ impl Continuation {
                 rest += of_row * of_column * off;
             }
         }
-        self.trend.at(column, row) + rest
+        self.trend.at(across.at, down.at) + rest
     }
 }
 
 impl Extrapolation {
     fn to(place: f64, count: usize) -> Self {
         let last = count - 1;
-        if place < 0.0 {
-            Self {
-                from: [(0, 1.0 - place), (1, place)],
-                side: Some(0),
-            }
+        let (from, side) = if place < 0.0 {
+            ([(0, 1.0 - place), (1, place)], Some(0))
         } else if place > last as f64 {
             let beyond = place - last as f64;
-            Self {
-                from: [(last, 1.0 + beyond), (last - 1, -beyond)],
-                side: Some(1),
-            }
+            ([(last, 1.0 + beyond), (last - 1, -beyond)], Some(1))
         } else {
-            Self {
-                from: [(place as usize, 1.0), (place as usize, 0.0)],
-                side: None,
-            }
+            ([(place as usize, 1.0), (place as usize, 0.0)], None)
+        };
+        Self {
+            at: place,
+            from,
+            side,
         }
     }
 }
@@ -111,7 +123,7 @@ mod tests {
             (5.0, 9.0),
             (11.0, -4.0),
         ] {
-            let found = continuation.at(column, row, own);
+            let found = continuation.at(&continuation.across(column), &continuation.down(row), own);
             assert!(
                 (found - quadratic(column, row)).abs() < 1e-12,
                 "{column} {row}: {found}"
@@ -139,7 +151,8 @@ mod tests {
             for (row, from_rows) in rows {
                 let of_row = |row| along(column, from_columns, &|column| off(column, row));
                 let wanted = trend.at(column, row) + along(row, from_rows, &of_row);
-                let found = continuation.at(column, row, own);
+                let found =
+                    continuation.at(&continuation.across(column), &continuation.down(row), own);
                 assert!(
                     (found - wanted).abs() < 1e-11,
                     "{column} {row}: {found} {wanted}"

@@ -59,7 +59,7 @@ mod tests {
             let found = coefficients(sheet);
             assert_eq!((found.columns, found.rows), (10, points + 4));
             for cell in 0..points - 1 {
-                let weights = crate::basis::derivative::<0>(0.5);
+                let weights = crate::basis::derivative::<0>(&[0.5; 8]).map(|weights| weights[0]);
                 let column = |row: usize| found.values[row * 10 + 5];
                 let value: f64 = (0..6).map(|m| weights[m] * column(cell + m)).sum();
                 let wanted = polynomial((cell as f64 + 0.5) * over);

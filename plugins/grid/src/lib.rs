@@ -11,7 +11,8 @@
 //! 4. `interpolation`: the coefficients of a tensor B-spline of degree 5 through all points.
 //! 5. `edges`: where the map is smooth, its own spline counts up to its edge.
 //! 6. `spline`: the coefficients, and those that count at a place; `continuation`: those beyond the map.
-//! 7. `points` and `taylor`: values and slopes, and series along curves.
+//! 7. `points` and `taylor`: values and slopes, and series along curves. A `group` of places goes through the
+//!    registers together.
 
 #[cfg(test)]
 mod against_scipy;
@@ -24,6 +25,7 @@ mod continuation;
 mod differences;
 mod edges;
 mod gaussian;
+mod group;
 mod interpolation;
 mod low_pass;
 mod planes;

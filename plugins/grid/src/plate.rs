@@ -23,12 +23,15 @@ const STEPS_OF_SMALL: usize = 2000;
 /// The share of the first residual at which the search ends.
 const SMALLEST_RESIDUAL: f64 = 1e-9;
 
+/// What the numbers of a row count in a force, from the farthest one before on.
+type Factors = [f64; 2 * REACH + 1];
+
 /// The sum of squares of third differences over a sheet.
 pub struct Plate {
     /// What the sum is made of.
     pub differences: Differences,
     /// Where all differences lie within the sheet: what each neighbour counts in a force, by rows.
-    neighbours: [[f64; 2 * REACH + 1]; 2 * REACH + 1],
+    neighbours: [Factors; 2 * REACH + 1],
 }
 
 impl Plate {
@@ -71,20 +74,19 @@ impl Plate {
     /// Half the derivatives by `W` neighbours of a row, where all differences lie within the sheet.
     #[inline(always)]
     fn force_inside<const W: usize>(&self, values: &[f64], place: usize) -> [f64; W] {
-        let corner = place - REACH * (self.differences.columns + 1);
+        let columns = self.differences.columns;
+        let corner = place - REACH * (columns + 1);
+        let line = |number: usize| &values[corner + number * columns..];
+        let [a, b, c, d, e, f, g] = &self.neighbours;
         let mut forces = [0.0; W];
-        for (number, factors) in self.neighbours.iter().enumerate() {
-            let line = &values[corner + number * self.differences.columns..];
-            // Towards the corners the factors are zero.
-            let skip = number.abs_diff(REACH);
-            for (column, factor) in factors.iter().enumerate() {
-                if (skip..2 * REACH + 1 - skip).contains(&column) {
-                    for (force, value) in forces.iter_mut().zip(&line[column..][..W]) {
-                        *force += factor * value;
-                    }
-                }
-            }
-        }
+        // Towards the corners the factors are zero.
+        add_line::<W, 3, 4>(&mut forces, a, line(0));
+        add_line::<W, 2, 5>(&mut forces, b, line(1));
+        add_line::<W, 1, 6>(&mut forces, c, line(2));
+        add_line::<W, 0, 7>(&mut forces, d, line(3));
+        add_line::<W, 1, 6>(&mut forces, e, line(4));
+        add_line::<W, 2, 5>(&mut forces, f, line(5));
+        add_line::<W, 3, 4>(&mut forces, g, line(6));
         forces
     }
 
@@ -113,27 +115,53 @@ impl Plate {
                 return;
             }
             self.put_forces(&direction, &mut asked, &mut forces);
-            let work = sum_over(&runs, |place| direction[place] * forces[place]);
+            let mut work = 0.0;
+            for run in &runs {
+                for (direction, force) in direction[run.clone()].iter().zip(&forces[run.clone()]) {
+                    work += direction * force;
+                }
+            }
             if work <= 0.0 {
                 return;
             }
             let step = now / work;
             let before = now;
+            now = 0.0;
             for run in &runs {
-                for place in run.clone() {
-                    values[place] += step * direction[place];
-                    residual[place] -= step * forces[place];
+                let numbers = values[run.clone()]
+                    .iter_mut()
+                    .zip(&mut residual[run.clone()]);
+                let moves = direction[run.clone()].iter().zip(&forces[run.clone()]);
+                for (((value, residual), (direction, force)), over) in
+                    numbers.zip(moves).zip(&over[run.clone()])
+                {
+                    *value += step * direction;
+                    *residual -= step * force;
+                    now += *residual * *residual * over;
                 }
             }
-            now = sum_over(&runs, |place| {
-                residual[place] * residual[place] * over[place]
-            });
             let kept = now / before;
             for run in &runs {
-                for place in run.clone() {
-                    direction[place] = residual[place] * over[place] + kept * direction[place];
+                let scaled = residual[run.clone()].iter().zip(&over[run.clone()]);
+                for (direction, (residual, over)) in direction[run.clone()].iter_mut().zip(scaled) {
+                    *direction = residual * over + kept * *direction;
                 }
             }
+        }
+    }
+}
+
+/// Adds to `W` forces what a row of numbers counts in them. The factors from `FROM` up to `TO` count.
+#[inline(always)]
+fn add_line<const W: usize, const FROM: usize, const TO: usize>(
+    forces: &mut [f64; W],
+    factors: &Factors,
+    line: &[f64],
+) {
+    let line = &line[..TO + W - 1];
+    for column in FROM..TO {
+        for (force, value) in forces.iter_mut().zip(&line[column..column + W]) {
+            *force += factors[column] * value;
         }
     }
 }
@@ -199,7 +227,10 @@ impl Loop for PutForces<'_> {
                 let last = place + REACH * (plate.differences.columns + 1);
                 if last + TOGETHER <= values.len() {
                     let together = plate.force_inside::<TOGETHER>(values, place);
-                    group.copy_from_slice(&together[..group.len()]);
+                    match group.as_chunks_mut() {
+                        ([whole], _) => *whole = together,
+                        (_, rest) => rest.copy_from_slice(&together[..rest.len()]),
+                    }
                     continue;
                 }
                 for (force, place) in group.iter_mut().zip(place..) {
@@ -212,7 +243,7 @@ impl Loop for PutForces<'_> {
 }
 
 /// The factors of neighbours, from the farthest one before on, in the derivative of a square.
-fn squared(along: &[f64]) -> [f64; 2 * REACH + 1] {
+fn squared(along: &[f64]) -> Factors {
     let mut factors = [0.0; 2 * REACH + 1];
     for (i, one) in along.iter().enumerate() {
         for (j, other) in along.iter().enumerate() {

@@ -12,7 +12,7 @@ use crate::differences::{Difference, Differences, KINDS, REACH};
 const LINES: usize = 2 * REACH;
 
 /// Numbers of a line that are calculated together.
-const TOGETHER: usize = 8;
+const TOGETHER: usize = 16;
 
 /// The strips along the edges in which some numbers lie.
 pub struct EdgeStrips {

@@ -1,16 +1,11 @@
 //! Heights and slopes of the spline at many points.
-//!
-//! Each step goes through a group of points before the next one begins. So the compiler puts the numbers
-//! of a point side by side in vector [registers](turnpath_plugin::registers).
 
 use turnpath_plugin::prelude::Gradients;
 use turnpath_plugin::registers::Loop;
 
-use crate::basis::{NO_WEIGHTS, derivative};
-use crate::spline::{NO_PATCH, Place, Spline, combine, dot};
-
-/// Points of a group. What is kept of them stays in the cache of the first level.
-const GROUP: usize = 16;
+use crate::basis::GROUP;
+use crate::group::{Group, put};
+use crate::spline::Spline;
 
 /// The loop that gives points their heights. All slices have one length.
 pub struct HeightsAt<'a> {
@@ -30,24 +25,11 @@ impl Loop for HeightsAt<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { spline, x, y, z } = self;
-        let mut places = [Place::default(); GROUP];
-        let mut patch = NO_PATCH;
-        let [mut of_s, mut of_t, mut lines] = [[NO_WEIGHTS; GROUP]; 3];
+        let mut group = Group::<1>::new();
         let points = x.chunks(GROUP).zip(y.chunks(GROUP));
         for ((x, y), z) in points.zip(z.chunks_mut(GROUP)) {
-            let places = spline.places(x, y, &mut places);
-            for (of_s, place) in of_s.iter_mut().zip(places) {
-                *of_s = derivative::<0>(place.s);
-            }
-            for (of_t, place) in of_t.iter_mut().zip(places) {
-                *of_t = derivative::<0>(place.t);
-            }
-            for ((line, of_t), place) in lines.iter_mut().zip(&of_t).zip(places) {
-                *line = combine(&spline.lines(place, &mut patch), of_t);
-            }
-            for ((z, line), of_s) in z.iter_mut().zip(&lines).zip(&of_s) {
-                *z = dot(line, of_s);
-            }
+            group.take(spline, x, y);
+            put(&group.term(0, 0), z);
         }
     }
 }
@@ -71,33 +53,14 @@ impl Loop for SlopesAt<'_> {
     fn call(self) {
         let Self { spline, x, y, out } = self;
         let Gradients { z, zx, zy } = out;
-        let mut places = [Place::default(); GROUP];
-        let mut patch = NO_PATCH;
-        // The splines and their rates, and the lines and their rates.
-        let [mut of_s, mut of_t, mut lines] = [[[NO_WEIGHTS; 2]; GROUP]; 3];
+        let mut group = Group::<2>::new();
         let points = x.chunks(GROUP).zip(y.chunks(GROUP));
         let slopes = zx.chunks_mut(GROUP).zip(zy.chunks_mut(GROUP));
         for (((x, y), z), (zx, zy)) in points.zip(z.chunks_mut(GROUP)).zip(slopes) {
-            let places = spline.places(x, y, &mut places);
-            for (of_s, place) in of_s.iter_mut().zip(places) {
-                *of_s = [derivative::<0>(place.s), derivative::<1>(place.s)];
-            }
-            for (of_t, place) in of_t.iter_mut().zip(places) {
-                *of_t = [derivative::<0>(place.t), derivative::<1>(place.t)];
-            }
-            for ((line, [of_t, rates]), place) in lines.iter_mut().zip(&of_t).zip(places) {
-                let at = spline.lines(place, &mut patch);
-                *line = [combine(&at, of_t), combine(&at, rates)];
-            }
-            for ((z, [line, _]), [of_s, _]) in z.iter_mut().zip(&lines).zip(&of_s) {
-                *z = dot(line, of_s);
-            }
-            for ((zx, [line, _]), [_, rates]) in zx.iter_mut().zip(&lines).zip(&of_s) {
-                *zx = dot(line, rates) * spline.per[0];
-            }
-            for ((zy, [_, rates]), [of_s, _]) in zy.iter_mut().zip(&lines).zip(&of_s) {
-                *zy = dot(rates, of_s) * spline.per[1];
-            }
+            group.take(spline, x, y);
+            put(&group.term(0, 0), z);
+            put(&group.term(1, 0).map(|slope| slope * spline.per[0]), zx);
+            put(&group.term(0, 1).map(|slope| slope * spline.per[1]), zy);
         }
     }
 }
@@ -128,5 +91,45 @@ impl Spline {
         let (spline, x, y) = (self, &[x], &[y]);
         SlopesAt { spline, x, y, out }.call();
         [z[0], zx[0], zy[0]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::Sheet;
+
+    /// Within the spline, in its margin, beyond it, and nowhere.
+    #[test]
+    fn any_length_of_batch_gives_what_single_points_give() {
+        let heights = Sheet::of_values(12, 9, |u, v| (3.7 * u * u + 5.3 * v + 2.9 * u * v) % 4.0);
+        let spline = &Spline::through(heights, [-2.0, 1.0], [0.5, 0.3]);
+        let mut x: Vec<f64> = (0..19).map(|i| 0.9 * f64::from(i) - 6.0).collect();
+        let mut y: Vec<f64> = x.iter().map(|x| 1.3 - 0.4 * x).collect();
+        (x[3], x[7], y[9], y[12]) = (f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300);
+        // What is no number may be any of those that are none.
+        let bits = |number: f64| (!number.is_nan()).then_some(number.to_bits());
+        for length in 0..=x.len() {
+            let (x, y) = (&x[..length], &y[..length]);
+            let [mut heights, mut z, mut zx, mut zy] = [(); 4].map(|()| vec![0.0; length]);
+            HeightsAt {
+                spline,
+                x,
+                y,
+                z: &mut heights,
+            }
+            .call();
+            let out = Gradients {
+                z: &mut z,
+                zx: &mut zx,
+                zy: &mut zy,
+            };
+            SlopesAt { spline, x, y, out }.call();
+            for i in 0..length {
+                let alone = spline.gradient(x[i], y[i]).map(bits);
+                assert_eq!([z[i], zx[i], zy[i]].map(bits), alone, "{length} {i}");
+                assert_eq!(bits(heights[i]), alone[0], "{length} {i}");
+            }
+        }
     }
 }

@@ -1,29 +1,40 @@
 //! The spline: its coefficients, and its values and slopes.
 
-use crate::basis::{BEFORE, LANES, NO_WEIGHTS, SPLINES, Weights};
-use crate::continuation::Continuation;
+use crate::basis::{BEFORE, GROUP, Numbers, SPLINES};
+use crate::continuation::{Continuation, Extrapolation};
 use crate::edges;
 use crate::interpolation::{BEYOND, coefficients};
 use crate::sheet::Sheet;
 
+/// Coefficients that are read at a time: as many as a register of 512 bits holds. Six of them count.
+pub const LANES: usize = 8;
+
+/// Coefficients of a row.
+pub type Line = [f64; LANES];
+
+/// Coefficients that are zero.
+pub const NO_LINE: Line = [0.0; LANES];
+
 /// The 36 coefficients that count at a place, row by row.
-pub type Patch = [Weights; SPLINES];
+pub type Patch = [Line; SPLINES];
 
 /// The coefficients of a place that is infinite.
 pub const NO_PATCH: Patch = [[f64::NAN; LANES]; SPLINES];
 
 /// The same where they lie.
-pub type Lines<'a> = [&'a Weights; SPLINES];
+pub type Lines<'a> = [&'a Line; SPLINES];
 
-/// A cell, by its column and row of coefficients, and a place in it.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Place {
-    column: i64,
-    row: i64,
-    /// From 0 to 1 along x.
-    pub s: f64,
-    /// From 0 to 1 along y.
-    pub t: f64,
+/// The cells of a group of places, and where the places lie in them.
+pub struct Places {
+    /// The column of coefficients of each cell. Where it is 2⁵¹ or more, either way, it may be any number that no
+    /// cell has.
+    pub columns: [i64; GROUP],
+    /// The same for rows.
+    pub rows: [i64; GROUP],
+    /// Places along x, from 0 to 1.
+    pub s: Numbers,
+    /// Places along y, from 0 to 1.
+    pub t: Numbers,
 }
 
 /// The share of the shorter side by which coefficients around the spline's own are kept. The nose reaches
@@ -96,12 +107,14 @@ impl Spline {
     fn keep_around(&mut self) {
         let Sheet { columns, rows, .. } = self.coefficients;
         let [own_columns, own_rows] = self.own().map(|count| self.kept..self.kept + count);
+        let from_own = |at: usize| at as f64 - self.kept as f64;
+        let of_column = |column| self.continuation.across(from_own(column));
+        let ways: Vec<Extrapolation> = (0..columns).map(of_column).collect();
         for row in 0..rows {
-            for column in 0..columns {
+            let down = self.continuation.down(from_own(row));
+            for (column, across) in ways.iter().enumerate() {
                 if !(own_rows.contains(&row) && own_columns.contains(&column)) {
-                    let from_own = |at: usize| at as f64 - self.kept as f64;
-                    self.coefficients.values[row * columns + column] =
-                        self.beyond(from_own(column), from_own(row));
+                    self.coefficients.values[row * columns + column] = self.beyond(across, &down);
                 }
             }
         }
@@ -113,40 +126,43 @@ impl Spline {
         [columns, rows].map(|count| count - 2 * self.kept)
     }
 
-    /// The cell of a place, and where the place lies in it.
+    /// The cells of places.
     #[inline(always)]
-    pub fn place(&self, x: f64, y: f64) -> Place {
-        let (u, v) = (
-            x * self.per[0] + self.origin[0],
-            y * self.per[1] + self.origin[1],
-        );
-        let (column, row) = (whole(u), whole(v));
-        let (s, t) = (u - column as f64, v - row as f64);
-        Place { column, row, s, t }
-    }
-
-    /// The same for points of a group. There are no more points than places.
-    #[inline(always)]
-    pub fn places<'a>(&self, x: &[f64], y: &[f64], places: &'a mut [Place]) -> &'a [Place] {
-        let places = &mut places[..x.len()];
-        for ((place, x), y) in places.iter_mut().zip(x).zip(y) {
-            *place = self.place(*x, *y);
+    pub fn places(&self, x: &Numbers, y: &Numbers) -> Places {
+        let (columns, s) = cells(x, self.per[0], self.origin[0]);
+        let (rows, t) = cells(y, self.per[1], self.origin[1]);
+        Places {
+            columns,
+            rows,
+            s,
+            t,
         }
-        places
     }
 
-    /// The coefficients that count at a place. Those that are not kept are put into `patch`. They are NaN
-    /// where the place is infinite. At a place that is no number the splines are none either.
+    /// The coefficients that count at a place (x, y) in a cell. Those that are not kept are put into `patch`. They
+    /// are NaN where the place is infinite. At a place that is no number the splines are none either.
     #[inline(always)]
-    pub fn lines<'a>(&'a self, place: &Place, patch: &'a mut Patch) -> Lines<'a> {
-        if let Some(lines) = self.lines_of_cell(place.column, place.row) {
+    pub fn lines<'a>(
+        &'a self,
+        [column, row]: [i64; 2],
+        place: [f64; 2],
+        patch: &'a mut Patch,
+    ) -> Lines<'a> {
+        if let Some(lines) = self.lines_of_cell(column, row) {
             return lines;
         }
-        *patch = match place.s.is_finite() && place.t.is_finite() {
-            true => self.patch_outside(place.column, place.row),
-            false => NO_PATCH,
-        };
+        *patch = self.patch_at(place);
         patch.each_ref()
+    }
+
+    /// The coefficients that count at a place (x, y) that is far out.
+    #[cold]
+    fn patch_at(&self, place: [f64; 2]) -> Patch {
+        let [u, v] = [0, 1].map(|axis| place[axis] * self.per[axis] + self.origin[axis]);
+        match u.is_finite() && v.is_finite() {
+            true => self.patch_outside(u.floor() as i64, v.floor() as i64),
+            false => NO_PATCH,
+        }
     }
 
     /// The coefficients of a cell, where all are kept.
@@ -163,45 +179,68 @@ impl Spline {
         if left >= columns.wrapping_sub(SPLINES - 1) || top >= rows.wrapping_sub(SPLINES - 1) {
             return None;
         }
-        let block = values.get(top * columns + left..)?;
-        let line = |number: usize| block.get(number * columns..)?.first_chunk();
-        Some([line(0)?, line(1)?, line(2)?, line(3)?, line(4)?, line(5)?])
+        let (a, below) = values
+            .get(top * columns + left..)?
+            .split_at_checked(*columns)?;
+        let (b, below) = below.split_at_checked(*columns)?;
+        let (c, below) = below.split_at_checked(*columns)?;
+        let (d, below) = below.split_at_checked(*columns)?;
+        let (e, f) = below.split_at_checked(*columns)?;
+        Some([
+            a.first_chunk()?,
+            b.first_chunk()?,
+            c.first_chunk()?,
+            d.first_chunk()?,
+            e.first_chunk()?,
+            f.first_chunk()?,
+        ])
     }
 
-    #[cold]
     fn patch_outside(&self, column: i64, row: i64) -> Patch {
-        let mut patch = [NO_WEIGHTS; SPLINES];
-        for (line, down) in patch.iter_mut().zip(0..) {
-            for (value, right) in line.iter_mut().zip(0..).take(SPLINES) {
-                let at = |middle: i64, shift: i64| middle as f64 + (shift - BEFORE as i64) as f64;
-                *value = self.beyond(at(column, right), at(row, down));
+        let at = |middle: i64, shift: i64| middle as f64 + (shift - BEFORE as i64) as f64;
+        let shifts: [i64; SPLINES] = [0, 1, 2, 3, 4, 5];
+        let columns = shifts.map(|right| self.continuation.across(at(column, right)));
+        let mut patch = [NO_LINE; SPLINES];
+        for (line, down) in patch.iter_mut().zip(shifts) {
+            let down = self.continuation.down(at(row, down));
+            for (value, across) in line.iter_mut().zip(&columns) {
+                *value = self.beyond(across, &down);
             }
         }
         patch
     }
 
     /// A coefficient beyond the spline's own. One of these comes out but for rounding.
-    fn beyond(&self, column: f64, row: f64) -> f64 {
+    fn beyond(&self, across: &Extrapolation, down: &Extrapolation) -> f64 {
         let own = |column: usize, row: usize| {
             let place = (row + self.kept) * self.coefficients.columns + column + self.kept;
             self.coefficients.values[place]
         };
-        self.continuation.at(column, row, own)
+        self.continuation.at(across, down, own)
     }
 }
 
-/// The largest whole number that is not above this one. Beyond 2⁶³ it is the last one that there is.
+/// 1.5·2⁵²: a whole number below 2⁵¹ that is added to it stands in its last bits.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
+
+/// The cells of places along an axis, and where the places lie in them.
 #[inline(always)]
-fn whole(number: f64) -> i64 {
-    let towards_zero = number as i64;
-    towards_zero.wrapping_sub(i64::from(towards_zero as f64 > number))
+fn cells(places: &Numbers, per: f64, origin: f64) -> ([i64; GROUP], Numbers) {
+    let (mut cells, mut rest) = ([0; GROUP], [0.0; GROUP]);
+    for ((cell, rest), place) in cells.iter_mut().zip(&mut rest).zip(places) {
+        let u = place * per + origin;
+        let whole = u.floor();
+        *rest = u - whole;
+        *cell = ((whole + WHOLE).to_bits() as i64).wrapping_sub(WHOLE.to_bits() as i64);
+    }
+    (cells, rest)
 }
 
 /// The sum of the rows, weighted.
 #[inline(always)]
-pub fn combine(lines: &Lines<'_>, weights: &Weights) -> Weights {
+pub fn combine(lines: &Lines<'_>, weights: &[f64; SPLINES]) -> Line {
     let [a, b, c, d, e, f] = lines;
-    let mut sums = NO_WEIGHTS;
+    let mut sums = NO_LINE;
     // Without a loop over the rows, so that one over a register's numbers is left.
     for (k, sum) in sums.iter_mut().enumerate() {
         *sum = weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k];
@@ -210,17 +249,10 @@ pub fn combine(lines: &Lines<'_>, weights: &Weights) -> Weights {
     sums
 }
 
-/// The sum of all values, weighted.
-#[inline(always)]
-pub fn dot(values: &Weights, weights: &Weights) -> f64 {
-    let [a, b, c, d, e, f, _, _]: Weights = std::array::from_fn(|k| values[k] * weights[k]);
-    (a + b) + (c + d) + (e + f)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::basis;
+    use crate::basis::{self, Splines};
 
     fn wavy(x: f64, y: f64) -> f64 {
         let fraction = |n: f64| n - n.floor();
@@ -255,14 +287,10 @@ mod tests {
     #[test]
     fn value_and_four_derivatives_go_on_over_every_border() {
         let spline = spline();
-        let orders = |s: f64| {
-            [
-                basis::derivative::<0>(s),
-                basis::derivative::<1>(s),
-                basis::derivative::<2>(s),
-                basis::derivative::<3>(s),
-                basis::derivative::<4>(s),
-            ]
+        let orders = |s: f64| basis::derivatives::<5>(&[s; GROUP]);
+        let dot = |line: &Line, splines: &Splines| -> f64 {
+            let products = line.iter().zip(splines).map(|(c, spline)| c * spline[0]);
+            products.sum()
         };
         for column in -30..60 {
             let patch = |column: i64| match spline.lines_of_cell(column, 3) {

@@ -7,14 +7,9 @@
 use turnpath_plugin::prelude::{GradientSeries, Series};
 use turnpath_plugin::registers::Loop;
 
-use crate::basis::{NO_WEIGHTS, Weights, derivatives};
-use crate::spline::{NO_PATCH, Place, Spline, combine, dot};
-
-/// Curves of a group. With more of them, their numbers leave the cache of the first level.
-const GROUP: usize = 8;
-
-/// A number of each curve.
-type Numbers = [f64; GROUP];
+use crate::basis::{GROUP, Numbers};
+use crate::group::Group;
+use crate::spline::Spline;
 
 /// The series of the curves, order by order.
 type Orders<const K: usize> = [Numbers; K];
@@ -110,12 +105,8 @@ impl<const K: usize, const S: usize, const N: usize> Loop for SlopesAlong<'_, K,
 
 /// The curves of a group, and what is known of them.
 struct Curves<const K: usize, const N: usize> {
-    places: [Place; GROUP],
-    /// The splines and their derivatives where each curve begins, along x and along y.
-    along_x: [[Weights; N]; GROUP],
-    along_y: [[Weights; N]; GROUP],
-    /// The rows, weighted by the derivatives along y.
-    lines: [[Weights; N]; GROUP],
+    /// The spline where curves begin.
+    starts: Group<N>,
     /// The derivatives of the spline where curves begin, over their factorials: `terms[b][a]` is that of
     /// order a along x and b along y, in cells.
     terms: [[Numbers; N]; N],
@@ -128,10 +119,7 @@ impl<const K: usize, const N: usize> Curves<K, N> {
     #[inline(always)]
     fn new() -> Self {
         Self {
-            places: [Place::default(); GROUP],
-            along_x: [[NO_WEIGHTS; N]; GROUP],
-            along_y: [[NO_WEIGHTS; N]; GROUP],
-            lines: [[NO_WEIGHTS; N]; GROUP],
+            starts: Group::new(),
             terms: [[[0.0; GROUP]; N]; N],
             of_x: [[[0.0; GROUP]; K]; K],
             of_y: [[[0.0; GROUP]; K]; K],
@@ -141,30 +129,16 @@ impl<const K: usize, const N: usize> Curves<K, N> {
     /// Takes the terms where curves begin.
     #[inline(always)]
     fn take_terms(&mut self, spline: &Spline, x: &[Series], y: &[Series]) {
-        let mut patch = NO_PATCH;
+        let [mut of_x, mut of_y] = [[0.0; GROUP]; 2];
+        let starts = of_x.iter_mut().zip(&mut of_y).zip(x.iter().zip(y));
+        for ((of_x, of_y), (x, y)) in starts {
+            (*of_x, *of_y) = (x[0], y[0]);
+        }
         let count = x.len().min(GROUP);
-        for (place, (x, y)) in self.places.iter_mut().zip(x.iter().zip(y)) {
-            *place = spline.place(x[0], y[0]);
-        }
-        let places = &self.places[..count];
-        for (along_x, place) in self.along_x.iter_mut().zip(places) {
-            *along_x = derivatives(place.s);
-        }
-        for (along_y, place) in self.along_y.iter_mut().zip(places) {
-            *along_y = derivatives(place.t);
-        }
-        for ((lines, along_y), place) in self.lines.iter_mut().zip(&self.along_y).zip(places) {
-            let at = spline.lines(place, &mut patch);
-            for (line, along_y) in lines.iter_mut().zip(along_y) {
-                *line = combine(&at, along_y);
-            }
-        }
+        self.starts.take(spline, &of_x[..count], &of_y[..count]);
         for b in 0..N {
             for a in 0..N - b {
-                let curves = self.lines.iter().zip(&self.along_x).take(count);
-                for (term, (lines, along_x)) in self.terms[b][a].iter_mut().zip(curves) {
-                    *term = dot(&lines[b], &along_x[a]);
-                }
+                self.terms[b][a] = self.starts.term(a, b);
             }
         }
     }
@@ -224,8 +198,9 @@ fn add<const K: usize, const L: usize>(
     }
 }
 
-/// Puts the numbers of the curves into their series. What was not asked for is zero.
-#[inline(always)]
+/// Puts the numbers of the curves into their series. What was not asked for is zero. It is not compiled into loops
+/// for wide registers, as [`Group`] does not turn its places there.
+#[inline(never)]
 fn put<const K: usize>(orders: &Orders<K>, curves: &mut [Series]) {
     for (i, curve) in curves.iter_mut().enumerate().take(GROUP) {
         for (order, coefficient) in curve.iter_mut().enumerate() {
