@@ -26,7 +26,7 @@ fn written(text: impl Fn(&str) -> String) -> (tempfile::TempDir, std::path::Path
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("toolpath.csv");
     let mut writer = PathWriter::begin(Draft::begin(&path).unwrap()).unwrap();
-    let rows = PathWriter::rows(Section::Cutting, &path_of(10)).unwrap();
+    let rows = PathWriter::rows(Section::Cutting, &path_of(10));
     writer.append(&rows).unwrap();
     writer.whole().complete().unwrap();
     let good = std::fs::read_to_string(&path).unwrap();
@@ -94,9 +94,7 @@ fn the_segment_between_lead_and_cut_belongs_to_the_lead() {
             }
             let mut block = PathBlock::default();
             block.push(*point);
-            writer
-                .append(&PathWriter::rows(section, &block).unwrap())
-                .unwrap();
+            writer.append(&PathWriter::rows(section, &block)).unwrap();
         }
         writer.whole().complete().unwrap();
         let mut reader = PathReader::open(&path).unwrap();
@@ -167,7 +165,7 @@ fn damaged_files_are_refused_with_their_line() {
 fn a_path_in_memory_has_the_bytes_of_its_file_and_reads_back() {
     let (_folder, path) = written(str::to_owned);
     let mut writer = PathWriter::in_memory();
-    let rows = PathWriter::rows(Section::Cutting, &path_of(10)).unwrap();
+    let rows = PathWriter::rows(Section::Cutting, &path_of(10));
     writer.append(&rows).unwrap();
     let bytes = writer.into_bytes();
     assert_eq!(bytes, std::fs::read(&path).unwrap());

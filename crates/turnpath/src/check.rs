@@ -4,7 +4,6 @@ use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::toolpath::Section;
 use turnpath_core::{DEG, Part, Tolerance, Tool};
-use turnpath_files::FileError;
 use turnpath_pipeline::{Estimate, PathSample, largest_nose, sample_path};
 use turnpath_post::PathWriter;
 use turnpath_report as report;
@@ -116,10 +115,8 @@ impl Job {
     /// Bytes of the table of the path, from a sample of it.
     fn toolpath_bytes(&self, sample: &PathSample) -> Result<f64, Error> {
         let stretches = sampled_stretches(sample, |block| {
-            PathWriter::rows(block.section, block.points).map(|rows| rows.len() as u64)
-        });
-        let path = self.recipe.path().to_owned();
-        let stretches = stretches.map_err(|error| FileError { path, error })?;
+            Ok::<_, Error>(PathWriter::rows(block.section, block.points).len() as u64)
+        })?;
         let of_path = stretches.iter().map(|rows| rows.of_path(rows.measured));
         Ok(of_path.sum())
     }

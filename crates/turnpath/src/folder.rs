@@ -435,10 +435,6 @@ impl Sink for FolderSink<'_> {
         let rows = self
             .writes_toolpath
             .then(|| PathWriter::rows(block.section, block.points));
-        let rows = rows.transpose().map_err(|error| FileError {
-            path: self.folder.path().join(&self.toolpath),
-            error,
-        })?;
         let has_columns = !self.column_files.is_empty();
         let lines = self.programs.iter().map(|program| program.lines(block));
         Ok(FileBlock {

@@ -61,7 +61,7 @@ fn written(points: &[super::points::ReadPoint]) -> Vec<u8> {
     for (point, section) in points {
         let mut block = PathBlock::default();
         block.push(*point);
-        let rows = PathWriter::rows(*section, &block).expect("rows in memory");
+        let rows = PathWriter::rows(*section, &block);
         writer.append(&rows).expect("memory takes rows");
     }
     writer.into_bytes()
