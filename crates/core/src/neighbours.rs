@@ -87,15 +87,17 @@ impl Neighbours<'_> {
     fn cusps(&self, passes: &[FeedSearch]) -> Result<Vec<Cusp>> {
         let theta: Vec<f64> = passes.iter().map(|pass| pass.theta).collect();
         let aside = |side: f64| passes.iter().map(move |pass| pass.rho + side * pass.feed);
-        let first = self.noses(&theta, &aside(-0.5).collect::<Vec<_>>())?;
-        let second = self.noses(&theta, &aside(0.5).collect::<Vec<_>>())?;
+        // Both noses of all passes together: a batch of twice the size takes less time than two.
+        let rho: Vec<f64> = aside(-0.5).chain(aside(0.5)).collect();
+        let noses = self.noses(&theta.repeat(2), &rho)?;
+        let (first, second) = noses.split_at(passes.len());
         let radius = self.cut.tool.nose_radius;
         let tips: Vec<[f64; 2]> = first
             .iter()
-            .zip(&second)
+            .zip(second)
             .map(|(one, two)| tip(one.centre, two.centre, radius))
             .collect();
-        let between = first.iter().zip(&second);
+        let between = first.iter().zip(second);
         let feet = between.map(|(one, two)| 0.5 * (one.foot + two.foot));
         let heights = self.heights(&theta, &tips, feet.collect())?;
         let cusp = |(height, tip): (f64, &[f64; 2])| Cusp {

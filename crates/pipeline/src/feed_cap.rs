@@ -4,13 +4,19 @@
 //! feed does not exceed that. What the feed follows near there is not asked: it may be the residual,
 //! and the recipe may give it.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
 use turnpath_core::locus::{CIRCLES_FROM, CuspFeed, Profile, profile_at};
 use turnpath_core::{CentreBuffers, Locus, SpiralLaw, StrategyError, angle};
 
+use crate::order::one_at_a_time;
 use crate::{PipelineError, Preparation, Result};
 
 /// Places along the law that are looked at.
 const PLACES: u32 = 20_000;
+/// Places that a thread looks at together. Their numbers stay in its cache.
+const TOGETHER: u32 = 500;
 /// The part of the largest feed from which on a feed is near to it. Laws stay below the feed of all
 /// radii around, so they do not come nearer than this where they are capped.
 const NEAR: f64 = 0.9;
@@ -26,32 +32,50 @@ pub struct FeedCap {
     pub feed: f64,
 }
 
+impl FeedCap {
+    /// Both places together.
+    fn and(self, other: Self) -> Self {
+        Self {
+            from: self.from.min(other.from),
+            to: self.to.max(other.to),
+            feed: self.feed.min(other.feed),
+        }
+    }
+}
+
 /// Where the law's feed comes within a tenth of the largest one of the nose; `None` where it does
 /// so nowhere.
 pub(crate) fn feed_cap(preparation: &Preparation, law: &SpiralLaw) -> Result<Option<FeedCap>> {
-    let large = large_feeds(preparation, law);
+    if law.end() <= 1.0 {
+        return Ok(None);
+    }
+    let groups: Vec<u32> = (0..PLACES).step_by(TOGETHER as usize).collect();
+    let cap = |first: &u32| cap_among(preparation, law, *first..PLACES.min(first + TOGETHER));
+    let caps = one_at_a_time(groups.par_iter().map(cap)).map_err(PipelineError::Measure)?;
+    Ok(caps.into_iter().flatten().reduce(FeedCap::and))
+}
+
+/// The same among some of the places.
+fn cap_among(
+    preparation: &Preparation,
+    law: &SpiralLaw,
+    places: Range<u32>,
+) -> std::result::Result<Option<FeedCap>, StrategyError> {
+    let large = large_feeds(preparation, law, places);
     if large.is_empty() {
         return Ok(None);
     }
-    let caps = caps(preparation, &large).map_err(PipelineError::Measure)?;
-    let mut found: Option<FeedCap> = None;
-    for (turn, cap) in large.iter().zip(caps) {
-        if turn.feed < NEAR * cap {
-            continue;
-        }
-        let known = found.unwrap_or(FeedCap {
-            from: f64::INFINITY,
-            to: f64::NEG_INFINITY,
-            feed: f64::INFINITY,
-        });
-        let rho = turn.rho.abs();
-        found = Some(FeedCap {
-            from: known.from.min(rho),
-            to: known.to.max(rho),
-            feed: known.feed.min(cap),
-        });
-    }
-    Ok(found)
+    let caps = caps(preparation, &large)?;
+    let near = large
+        .iter()
+        .zip(caps)
+        .filter(|(turn, cap)| turn.feed >= NEAR * cap);
+    let near = near.map(|(turn, cap)| FeedCap {
+        from: turn.rho.abs(),
+        to: turn.rho.abs(),
+        feed: cap,
+    });
+    Ok(near.reduce(FeedCap::and))
 }
 
 /// The feed of a turn.
@@ -62,11 +86,10 @@ struct TurnFeed {
     feed: f64,
 }
 
-/// The turns whose feed is so large that a cap may be near.
-fn large_feeds(preparation: &Preparation, law: &SpiralLaw) -> Vec<TurnFeed> {
+/// The turns that begin at some of the places and whose feed is so large that a cap may be near.
+fn large_feeds(preparation: &Preparation, law: &SpiralLaw, places: Range<u32>) -> Vec<TurnFeed> {
     let least = CIRCLES_FROM * NEAR * preparation.task.tool.nose_radius;
     let turns = law.end() - 1.0;
-    let places = if turns > 0.0 { PLACES } else { 0 };
     let turn = |i: u32| {
         let n = turns * f64::from(i) / f64::from(PLACES);
         let (rho, next) = (law.value(n), law.value(n + 1.0));
@@ -77,7 +100,7 @@ fn large_feeds(preparation: &Preparation, law: &SpiralLaw) -> Vec<TurnFeed> {
         }
     };
     let large = |turn: &TurnFeed| turn.feed > least;
-    (0..places).map(turn).filter(large).collect()
+    places.map(turn).filter(large).collect()
 }
 
 /// The largest feeds of the nose, mm.

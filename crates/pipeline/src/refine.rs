@@ -132,16 +132,19 @@ impl Refinement {
         let mut solver_state = first_state(plan);
         // The last block that was made waits for the first point of the next one.
         let mut waiting: Option<BlockPoints> = None;
-        for some in dirty.chunks(batch.max(1)) {
+        let mut batches = dirty.chunks(batch.max(1)).peekable();
+        while let Some(some) = batches.next() {
             stop_if_cancelled(observer)?;
             let made = self.make_runs(plan, &runs(some), solver_state.as_mut())?;
             let mut blocks: Vec<BlockPoints> = waiting.take().into_iter().chain(made).collect();
             close_joints(&mut blocks);
-            waiting = blocks.pop();
+            if batches.peek().is_some() {
+                waiting = blocks.pop();
+            }
             self.play(plan, &blocks)?;
             observer.advance(some.len() as u64);
         }
-        self.play(plan, waiting.as_slice())
+        Ok(())
     }
 
     /// Makes runs of blocks: in parallel, unless the solver takes its state from one to the next.

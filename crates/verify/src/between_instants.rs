@@ -3,14 +3,15 @@
 use turnpath_core::Result;
 use turnpath_core::toolpath::Segment;
 
-use crate::touch::{FirstTouch, Touch};
+use crate::touch::{FirstTouch, TouchBuffers};
 
-/// The first touches at times within segments, and played − true Z there, mm.
+/// Played − true Z at times within segments, mm. The first touches there are left in `buffers`.
 pub(crate) fn play(
     touch: &FirstTouch,
     segments: &[Segment],
     instants: &[(usize, f64)],
-) -> Result<(Vec<Touch>, Vec<f64>)> {
+    buffers: &mut TouchBuffers,
+) -> Result<Vec<f64>> {
     let of = |axis: fn(&Segment, f64) -> f64| -> Vec<f64> {
         instants
             .iter()
@@ -22,12 +23,7 @@ pub(crate) fn play(
         of(|segment, at| segment.x.value(at)),
         of(|segment, at| segment.z.value(at)),
     );
-    let mut touches = Vec::new();
-    touch.find(&theta, &x, &mut touches)?;
-    let errors = z
-        .iter()
-        .zip(&touches)
-        .map(|(z, touch)| z - touch.z)
-        .collect();
-    Ok((touches, errors))
+    touch.find_in(&theta, &x, buffers)?;
+    let heights = z.iter().zip(&buffers.touches.z);
+    Ok(heights.map(|(played, touch)| played - touch).collect())
 }

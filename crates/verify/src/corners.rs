@@ -6,7 +6,7 @@ use turnpath_core::toolpath::Segment;
 
 use crate::between_instants::play;
 use crate::instants::INSTANTS;
-use crate::touch::{FirstTouch, Touch};
+use crate::touch::{FirstTouch, Touch, TouchBuffers};
 use crate::worst::Worst;
 
 /// A contact that moves further than this part of the nose radius from one instant to the next may
@@ -32,7 +32,9 @@ pub(crate) fn at_corners(
 ) -> Result<Vec<Option<Worst>>> {
     let mut found = vec![None; segments.len()];
     let ends: Vec<(usize, f64)> = (0..segments.len()).map(|segment| (segment, 1.0)).collect();
-    let (ends, _) = play(touch, segments, &ends)?;
+    let mut buffers = TouchBuffers::default();
+    play(touch, segments, &ends, &mut buffers)?;
+    let ends: Vec<Touch> = buffers.touches.iter().collect();
     let mut intervals = jump_intervals(touch, touches, &ends);
     for _ in 0..HALVINGS {
         let middle = |interval: &JumpInterval| {
@@ -40,8 +42,8 @@ pub(crate) fn at_corners(
             (interval.segment, 0.5 * (begin + end))
         };
         let middles: Vec<(usize, f64)> = intervals.iter().map(middle).collect();
-        let (touches, errors) = play(touch, segments, &middles)?;
-        let results = middles.iter().zip(touches.iter().zip(errors));
+        let errors = play(touch, segments, &middles, &mut buffers)?;
+        let results = middles.iter().zip(buffers.touches.iter().zip(errors));
         for (interval, ((segment, at), (touch, error))) in intervals.iter_mut().zip(results) {
             interval.keep_jump(*at, touch.foot);
             let here = Worst { error, at: *at };

@@ -9,7 +9,7 @@ use turnpath_core::toolpath::{PathBlock, Segment};
 
 use crate::between_instants::play;
 use crate::instants::{BATCH, INSTANTS, InstantBatch};
-use crate::touch::FirstTouch;
+use crate::touch::{FirstTouch, TouchBuffers};
 use crate::worst::Worst;
 
 /// A segment may have a sharp peak if a sixth difference of its errors exceeds this part of the largest one. The top
@@ -52,12 +52,13 @@ pub(crate) fn sharp_peaks(
         return Ok(Vec::new());
     }
     let segments: Vec<Segment> = batch.filter_map(|number| points.segment(number)).collect();
+    let mut buffers = TouchBuffers::default();
     for _ in 0..ROUNDS {
         let places: Vec<(usize, f64)> = peaks
             .iter()
             .map(|peak| (peak.segment, peak.next()))
             .collect();
-        let (_, errors) = play(touch, &segments, &places)?;
+        let errors = play(touch, &segments, &places, &mut buffers)?;
         for ((peak, (_, at)), error) in peaks.iter_mut().zip(places).zip(errors) {
             peak.close_in(Worst { error, at });
         }

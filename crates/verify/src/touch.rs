@@ -5,6 +5,8 @@
 //! the tool's reach, H has a single maximum, which a bracketed secant finds. Elsewhere a scan of the
 //! whole reach ([`crate::scan`]) brackets every maximum that can be the highest.
 
+use rayon::prelude::*;
+use turnpath_core::locus::{Profile, profile_at};
 use turnpath_core::registers::in_widest;
 use turnpath_core::tally::FIRST_TOUCHES;
 use turnpath_core::{Misfit, Result, SurfaceModel};
@@ -270,20 +272,23 @@ impl FirstTouch {
 /// finite.
 fn largest_curvature(surface: &dyn SurfaceModel, reach: f64) -> Result<Option<f64>> {
     let (angles, radii) = CURVATURE_GRID;
-    let mut largest = f64::NEG_INFINITY;
-    let mut profiles = vec![turnpath_core::locus::Profile::default(); angles];
     let theta: Vec<f64> = (0..angles)
         .map(|i| std::f64::consts::PI * i as f64 / angles as f64)
         .collect();
-    for i in 0..=radii {
+    let of_ring = |i: usize| -> Result<Option<f64>> {
         let rho = vec![reach * (2.0 * i as f64 / radii as f64 - 1.0); angles];
-        turnpath_core::locus::profile_at(surface, &theta, &rho, &mut profiles)?;
-        for profile in &profiles {
-            let curvature = profile.curvature();
-            if !curvature.is_finite() {
-                return Ok(None);
-            }
-            largest = largest.max(curvature);
+        let mut profiles = vec![Profile::default(); angles];
+        profile_at(surface, &theta, &rho, &mut profiles)?;
+        let mut curvatures = profiles.iter().map(Profile::curvature);
+        let finite = |largest: f64, one: f64| one.is_finite().then(|| largest.max(one));
+        Ok(curvatures.try_fold(f64::NEG_INFINITY, finite))
+    };
+    let rings: Vec<Result<Option<f64>>> = (0..=radii).into_par_iter().map(of_ring).collect();
+    let mut largest = f64::NEG_INFINITY;
+    for ring in rings {
+        match ring? {
+            Some(of_ring) => largest = largest.max(of_ring),
+            None => return Ok(None),
         }
     }
     Ok(Some(largest))

@@ -18,8 +18,10 @@ const PATIENCE: usize = 12;
 /// More trials than it takes to halve any bracket down to rounding.
 const MOST_TRIALS: usize = 160;
 
-/// Number of searches that go on together. Their state stays in the cache of the first level.
-pub const WIDTH: usize = 64;
+/// Number of searches that go on together. Near ridges the last ones take many steps, each of which asks the
+/// surface once for all that are left, so that more searches share them. Their state stays in the cache of the
+/// second level.
+pub const WIDTH: usize = 256;
 
 /// Flags are numbers too, 0 or 1: the compiler leaves loops over columns of other types in scalar
 /// registers.
@@ -143,10 +145,10 @@ impl Searches {
             let (x, y) = touch.ray.point(touch.rho + bracket.trial);
             (self.place[0][i], self.place[1][i]) = (x, y);
         }
-        self.last.fill(f64::NAN);
-        self.gap.fill(f64::NAN);
-        self.rate.fill(1.0);
-        self.step.fill(f64::INFINITY);
+        self.last[..self.count].fill(f64::NAN);
+        self.gap[..self.count].fill(f64::NAN);
+        self.rate[..self.count].fill(1.0);
+        self.step[..self.count].fill(f64::INFINITY);
     }
 
     /// Runs the searches until all have ended, and gives the touches their offsets.
