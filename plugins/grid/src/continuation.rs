@@ -87,6 +87,39 @@ impl Continuation {
     }
 }
 
+impl Continuation {
+    /// The coefficients at neighbouring columns of a row.
+    pub fn line<const N: usize>(
+        &self,
+        across: &[Extrapolation; N],
+        down: &Extrapolation,
+        own: impl Fn(usize, usize) -> f64 + Copy,
+    ) -> [f64; N] {
+        let side = across.first().and_then(|way| way.side);
+        let are_alike = across.iter().all(|way| way.side == side);
+        let mut rest = [0.0; N];
+        for (j, (row, of_row)) in down.from.into_iter().enumerate() {
+            for i in 0..2 {
+                let shares = rest.iter_mut().zip(across.iter().map(|way| way.from[i]));
+                match (side.filter(|_| are_alike), down.side.filter(|_| are_alike)) {
+                    (Some(side), _) => {
+                        let off = self.at_columns[side][i][row];
+                        shares.for_each(|(rest, (_, share))| *rest += of_row * share * off);
+                    }
+                    (None, Some(side)) => {
+                        let off = &self.at_rows[side][j];
+                        shares.for_each(|(rest, (column, share))| {
+                            *rest += of_row * share * off[column];
+                        });
+                    }
+                    (None, None) => return across.each_ref().map(|way| self.at(way, down, own)),
+                }
+            }
+        }
+        std::array::from_fn(|k| self.trend.at(across[k].at, down.at) + rest[k])
+    }
+}
+
 impl Extrapolation {
     fn to(place: f64, count: usize) -> Self {
         let last = count - 1;

@@ -39,7 +39,7 @@ pub struct Places {
 
 /// The share of the shorter side by which coefficients around the spline's own are kept. The nose reaches
 /// beyond the part, and a coefficient takes time.
-const KEPT_SHARE: usize = 4;
+const KEPT_SHARE: usize = 2;
 
 /// Most coefficients that are kept on each side. A large map takes little more memory for them.
 const MOST_KEPT: usize = 128;
@@ -203,8 +203,11 @@ impl Spline {
         let mut patch = [NO_LINE; SPLINES];
         for (line, down) in patch.iter_mut().zip(shifts) {
             let down = self.continuation.down(at(row, down));
-            for (value, across) in line.iter_mut().zip(&columns) {
-                *value = self.beyond(across, &down);
+            let values = self
+                .continuation
+                .line(&columns, &down, self.own_coefficient());
+            for (place, value) in line.iter_mut().zip(values) {
+                *place = value;
             }
         }
         patch
@@ -212,11 +215,15 @@ impl Spline {
 
     /// A coefficient beyond the spline's own. One of these comes out but for rounding.
     fn beyond(&self, across: &Extrapolation, down: &Extrapolation) -> f64 {
-        let own = |column: usize, row: usize| {
+        self.continuation.at(across, down, self.own_coefficient())
+    }
+
+    /// The spline's own coefficient at a column and row.
+    fn own_coefficient(&self) -> impl Fn(usize, usize) -> f64 + Copy {
+        |column, row| {
             let place = (row + self.kept) * self.coefficients.columns + column + self.kept;
             self.coefficients.values[place]
-        };
-        self.continuation.at(across, down, own)
+        }
     }
 }
 
@@ -311,9 +318,9 @@ mod tests {
     #[test]
     fn what_is_kept_around_is_what_a_place_farther_out_gets() {
         let spline = spline();
-        // The spline has 16 columns and 13 rows of its own, and three are kept on each side.
-        assert_eq!((spline.own(), spline.kept), ([16, 13], 3));
-        for (column, row) in [(-1, 3), (4, -1), (-1, -1), (15, 12), (15, 2), (3, 12)] {
+        // The spline has 16 columns and 13 rows of its own, and six are kept on each side.
+        assert_eq!((spline.own(), spline.kept), ([16, 13], 6));
+        for (column, row) in [(-4, 3), (4, -1), (-1, -4), (18, 15), (15, 2), (3, 15)] {
             let kept = spline.lines_of_cell(column, row).unwrap();
             let patch = spline.patch_outside(column, row);
             for (line, (kept, calculated)) in (row - 2..).zip(kept.iter().zip(&patch)) {
@@ -330,8 +337,8 @@ mod tests {
                 }
             }
         }
-        assert!(spline.lines_of_cell(-2, 3).is_none());
-        assert!(spline.lines_of_cell(3, 13).is_none());
+        assert!(spline.lines_of_cell(-5, 3).is_none());
+        assert!(spline.lines_of_cell(3, 16).is_none());
     }
 
     #[test]
