@@ -1,4 +1,4 @@
-//! Vector registers: loops over lanes, and over the curves of strips, run in the widest that the CPU
+//! Vector registers: loops over points, over lanes and over the curves of strips run in the widest that the CPU
 //! has.
 //!
 //! The compiler turns the same loop into other instructions, but neither the operations nor their
@@ -6,10 +6,10 @@
 //! by one does. So the bytes are the same in all registers.
 //! `TURNPATH_LANES=base`, `avx2` or `avx512` in the environment asks for no wider ones than these.
 //!
-//! The compiler may take a loop over groups of eight numbers across its groups: a register then holds one number
-//! of each of eight groups, gathered and scattered one by one, and the loop takes up to six times as long. So a
-//! formula that the compiler can put side by side goes over single numbers, and what turns columns into rows is
-//! not inlined into such loops.
+//! In a loop over groups of eight numbers the compiler may put eight groups side by side, and not the numbers of a
+//! group. A register then holds a number of each group. They are gathered and scattered one by one, and the loop
+//! takes up to seven times as long. So formulas without loops and calls go over single numbers, and what makes
+//! rows of columns is not inlined into such loops.
 
 pub use pulp::NullaryFnOnce as Loop;
 
@@ -23,7 +23,8 @@ pub fn in_widest<L: Loop>(one: L) -> L::Output {
 
 /// A loop over [lanes](crate::Lanes) that can go without them.
 pub trait LaneLoop: Loop {
-    /// The same results, with the same bits, from one number after the other. It must be
+    /// The same results, with the same bits, from one number after the other, for formulas that the compiler puts
+    /// side by side and for CPUs with narrow registers. It must be
     /// `#[inline(always)]`, as the loop over lanes may call it for what does not fill the lanes.
     fn one_by_one(self) -> Self::Output;
 }

@@ -49,13 +49,14 @@ pub(crate) fn feed_cap(preparation: &Preparation, law: &SpiralLaw) -> Result<Opt
     if law.end() <= 1.0 {
         return Ok(None);
     }
-    let groups: Vec<u32> = (0..PLACES).step_by(TOGETHER as usize).collect();
-    let cap = |first: &u32| cap_among(preparation, law, *first..PLACES.min(first + TOGETHER));
-    let caps = one_at_a_time(groups.par_iter().map(cap)).map_err(PipelineError::Measure)?;
+    let group = |number: u32| (TOGETHER * number)..PLACES.min(TOGETHER * (number + 1));
+    let groups = (0..PLACES.div_ceil(TOGETHER)).into_par_iter();
+    let caps = one_at_a_time(groups.map(|number| cap_among(preparation, law, group(number))));
+    let caps = caps.map_err(PipelineError::Measure)?;
     Ok(caps.into_iter().flatten().reduce(FeedCap::and))
 }
 
-/// The same among some of the places.
+/// The same among some of the places. A largest feed that is no number counts for nothing.
 fn cap_among(
     preparation: &Preparation,
     law: &SpiralLaw,
@@ -66,16 +67,14 @@ fn cap_among(
         return Ok(None);
     }
     let caps = caps(preparation, &large)?;
-    let near = large
-        .iter()
-        .zip(caps)
-        .filter(|(turn, cap)| turn.feed >= NEAR * cap);
-    let near = near.map(|(turn, cap)| FeedCap {
+    let capped = large.iter().zip(caps);
+    let capped = capped.filter(|(turn, cap)| turn.feed >= NEAR * cap);
+    let places = capped.map(|(turn, cap)| FeedCap {
         from: turn.rho.abs(),
         to: turn.rho.abs(),
         feed: cap,
     });
-    Ok(near.reduce(FeedCap::and))
+    Ok(places.reduce(FeedCap::and))
 }
 
 /// The feed of a turn.

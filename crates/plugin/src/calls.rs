@@ -6,6 +6,7 @@
 //! [`on_this_thread`]. A loaded library has its own copy of this module, which stays empty.
 
 use std::cell::Cell;
+use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU32, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -107,6 +108,7 @@ impl Callee {
         Mark {
             thread,
             before: CURRENT.replace(Some(self)),
+            stays_here: PhantomData,
         }
     }
 }
@@ -117,12 +119,14 @@ impl Callee {
 pub struct Mark {
     thread: &'static Thread,
     before: Option<&'static Callee>,
+    /// A mark cannot go to another thread.
+    stays_here: PhantomData<*const ()>,
 }
 
 impl Drop for Mark {
     fn drop(&mut self) {
         CURRENT.set(self.before);
-        // No other thread writes it, so nothing has to be locked.
+        // Only this thread writes the depth, so a load and a store suffice.
         let depth = self.thread.depth.load(Ordering::Relaxed);
         self.thread.depth.store(depth - 1, Ordering::Release);
     }

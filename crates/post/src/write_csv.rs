@@ -9,7 +9,7 @@ use turnpath_files::{Draft, FileError};
 use crate::row::{HEADER, Row};
 
 /// About how many bytes a row has.
-const ROW: usize = 140;
+const ROW_BYTES: usize = 140;
 
 /// Writes `toolpath.csv` to a file or to memory.
 ///
@@ -45,7 +45,7 @@ impl PathWriter {
     /// Control points as rows. This needs no file, so several blocks can be formatted in parallel.
     pub fn rows(section: Section, points: &PathBlock) -> Vec<u8> {
         let end = format!("{}\n", section as u8);
-        let mut rows = Vec::with_capacity(ROW * points.len());
+        let mut rows = Vec::with_capacity(ROW_BYTES * points.len());
         let mut digits = zmij::Buffer::new();
         for point in points.points() {
             for number in Row::new(&point, section).numbers() {
@@ -126,6 +126,7 @@ mod tests {
             let one: f64 = format!("1e{power}").parse().unwrap();
             numbers.extend([one, -one, 1.5 * one, one / 3.0]);
         }
+        numbers.extend((1..2047_u64).map(|exponent| f64::from_bits(exponent << 52)));
         // Bits of a linear congruential generator.
         let mut bits = 1_u64;
         numbers.extend((0..20_000).map(|_| {

@@ -35,6 +35,9 @@ impl Strategy for RippledSphere {
 }
 
 impl Surface for RippledSphere {
+    // So eight cosines are found at a time.
+    const SIDE_BY_SIDE: bool = false;
+
     // So the formula runs in the widest vector registers of the CPU.
     #[inline(always)]
     fn sag<S: Scalar>(&self, x: S, y: S) -> S {

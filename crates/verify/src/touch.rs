@@ -275,7 +275,7 @@ fn largest_curvature(surface: &dyn SurfaceModel, reach: f64) -> Result<Option<f6
     let theta: Vec<f64> = (0..angles)
         .map(|i| std::f64::consts::PI * i as f64 / angles as f64)
         .collect();
-    let of_ring = |i: usize| -> Result<Option<f64>> {
+    let on_ring = |i: usize| -> Result<Option<f64>> {
         let rho = vec![reach * (2.0 * i as f64 / radii as f64 - 1.0); angles];
         let mut profiles = vec![Profile::default(); angles];
         profile_at(surface, &theta, &rho, &mut profiles)?;
@@ -283,11 +283,15 @@ fn largest_curvature(surface: &dyn SurfaceModel, reach: f64) -> Result<Option<f6
         let finite = |largest: f64, one: f64| one.is_finite().then(|| largest.max(one));
         Ok(curvatures.try_fold(f64::NEG_INFINITY, finite))
     };
-    let rings: Vec<Result<Option<f64>>> = (0..=radii).into_par_iter().map(of_ring).collect();
-    let mut largest = f64::NEG_INFINITY;
+    // A surface that ends somewhere ends at the outermost ring.
+    let Some(mut largest) = on_ring(0)? else {
+        return Ok(None);
+    };
+    let rings: Vec<Result<Option<f64>>> = (1..=radii).into_par_iter().map(on_ring).collect();
+    // A ring without a value comes before a ring that fails, as if they had been asked one after the other.
     for ring in rings {
         match ring? {
-            Some(of_ring) => largest = largest.max(of_ring),
+            Some(on_ring) => largest = largest.max(on_ring),
             None => return Ok(None),
         }
     }

@@ -85,9 +85,7 @@ impl Continuation {
         }
         self.trend.at(across.at, down.at) + rest
     }
-}
 
-impl Continuation {
     /// The coefficients at neighbouring columns of a row.
     pub fn line<const N: usize>(
         &self,
@@ -97,22 +95,19 @@ impl Continuation {
     ) -> [f64; N] {
         let side = across.first().and_then(|way| way.side);
         let are_alike = across.iter().all(|way| way.side == side);
+        if !are_alike || (side, down.side) == (None, None) {
+            return across.each_ref().map(|way| self.at(way, down, own));
+        }
         let mut rest = [0.0; N];
         for (j, (row, of_row)) in down.from.into_iter().enumerate() {
             for i in 0..2 {
-                let shares = rest.iter_mut().zip(across.iter().map(|way| way.from[i]));
-                match (side.filter(|_| are_alike), down.side.filter(|_| are_alike)) {
-                    (Some(side), _) => {
-                        let off = self.at_columns[side][i][row];
-                        shares.for_each(|(rest, (_, share))| *rest += of_row * share * off);
-                    }
-                    (None, Some(side)) => {
-                        let off = &self.at_rows[side][j];
-                        shares.for_each(|(rest, (column, share))| {
-                            *rest += of_row * share * off[column];
-                        });
-                    }
-                    (None, None) => return across.each_ref().map(|way| self.at(way, down, own)),
+                for (rest, way) in rest.iter_mut().zip(across) {
+                    let (column, of_column) = way.from[i];
+                    let off = match (side, down.side) {
+                        (None, Some(side)) => self.at_rows[side][j][column],
+                        (side, _) => self.at_columns[side.unwrap_or_default()][i][row],
+                    };
+                    *rest += of_row * of_column * off;
                 }
             }
         }
@@ -190,6 +185,27 @@ mod tests {
                     (found - wanted).abs() < 1e-11,
                     "{column} {row}: {found} {wanted}"
                 );
+            }
+        }
+    }
+
+    /// On all sides, at all corners, and over each border, also over both.
+    #[test]
+    fn a_line_has_the_bits_of_its_coefficients_alone() {
+        for columns in [4, 9] {
+            let jump = |u: f64, v: f64| (3.7 * u * u + 5.3 * v + 2.9 * u * v) % 4.0;
+            let sheet = Sheet::of_values(columns, 7, jump);
+            let continuation = Continuation::of(&sheet);
+            let own = |column: usize, row: usize| sheet.values[row * columns + column];
+            for first in -8..14 {
+                let ways: [Extrapolation; 6] =
+                    std::array::from_fn(|k| continuation.across(f64::from(first + k as i32)));
+                for row in [-3.0, 2.0, 9.0] {
+                    let down = continuation.down(row);
+                    let line = continuation.line(&ways, &down, own).map(f64::to_bits);
+                    let alone = ways.map(|way| continuation.at(&way, &down, own).to_bits());
+                    assert_eq!(line, alone, "{columns}: {first} {row}");
+                }
             }
         }
     }

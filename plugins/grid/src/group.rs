@@ -1,7 +1,7 @@
 //! The spline at a group of places, whose numbers go through the registers together.
 //!
 //! The splines along each axis have the places side by side. The rows of coefficients have their columns side by
-//! side. Rows are weighted place by place, and then turned, so that places lie side by side again.
+//! side. Rows are weighted place by place, and then transposed, so that places lie side by side again.
 
 use crate::basis::{GROUP, NO_SPLINES, Numbers, Splines, derivatives};
 use crate::spline::{Line, NO_LINE, NO_PATCH, Spline, combine};
@@ -60,7 +60,7 @@ impl<const N: usize> Group<N> {
                 *weighted = combine(&lines, &weights);
             }
         }
-        turn(&self.weighted, &mut self.rows);
+        transpose(&self.weighted, &mut self.rows);
     }
 
     /// The derivatives of order `a` along x and `b` along y, over a! b!, in cells.
@@ -77,7 +77,7 @@ impl<const N: usize> Group<N> {
     }
 }
 
-/// Puts the numbers of a group into a slice that may be shorter.
+/// Puts the numbers of a group into a slice, which may be shorter but not longer.
 #[inline(always)]
 pub fn put(numbers: &Numbers, slice: &mut [f64]) {
     match slice.as_chunks_mut() {
@@ -94,7 +94,7 @@ pub fn put(numbers: &Numbers, slice: &mut [f64]) {
 /// It is not compiled into loops for wide registers: there the compiler takes instructions that gather a register
 /// from the cache number by number, which take longer.
 #[inline(never)]
-fn turn<const N: usize>(weighted: &[[Line; N]; GROUP], rows: &mut [Splines; N]) {
+fn transpose<const N: usize>(weighted: &[[Line; N]; GROUP], rows: &mut [Splines; N]) {
     for (order, rows) in rows.iter_mut().enumerate() {
         for (m, row) in rows.iter_mut().enumerate() {
             for (number, weighted) in row.iter_mut().zip(weighted) {

@@ -45,6 +45,7 @@ fn equations(points: usize) -> Vec<(usize, Vec<f64>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::basis::GROUP;
 
     /// Six points leave one polynomial; with more, a polynomial is its own spline.
     #[test]
@@ -59,7 +60,8 @@ mod tests {
             let found = coefficients(sheet);
             assert_eq!((found.columns, found.rows), (10, points + 4));
             for cell in 0..points - 1 {
-                let weights = crate::basis::derivative::<0>(&[0.5; 8]).map(|weights| weights[0]);
+                let weights =
+                    crate::basis::derivative::<0>(&[0.5; GROUP]).map(|weights| weights[0]);
                 let column = |row: usize| found.values[row * 10 + 5];
                 let value: f64 = (0..6).map(|m| weights[m] * column(cell + m)).sum();
                 let wanted = polynomial((cell as f64 + 0.5) * over);

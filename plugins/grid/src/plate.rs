@@ -80,13 +80,13 @@ impl Plate {
         let [a, b, c, d, e, f, g] = &self.neighbours;
         let mut forces = [0.0; W];
         // Towards the corners the factors are zero.
-        add_line::<W, 3, 4>(&mut forces, a, line(0));
-        add_line::<W, 2, 5>(&mut forces, b, line(1));
-        add_line::<W, 1, 6>(&mut forces, c, line(2));
-        add_line::<W, 0, 7>(&mut forces, d, line(3));
-        add_line::<W, 1, 6>(&mut forces, e, line(4));
-        add_line::<W, 2, 5>(&mut forces, f, line(5));
-        add_line::<W, 3, 4>(&mut forces, g, line(6));
+        add_line::<W, 3>(&mut forces, a, line(0));
+        add_line::<W, 2>(&mut forces, b, line(1));
+        add_line::<W, 1>(&mut forces, c, line(2));
+        add_line::<W, 0>(&mut forces, d, line(3));
+        add_line::<W, 1>(&mut forces, e, line(4));
+        add_line::<W, 2>(&mut forces, f, line(5));
+        add_line::<W, 3>(&mut forces, g, line(6));
         forces
     }
 
@@ -151,15 +151,15 @@ impl Plate {
     }
 }
 
-/// Adds to `W` forces what a row of numbers counts in them. The factors from `FROM` up to `TO` count.
+/// Adds to `W` forces what a row of numbers counts in them. The first and the last `SKIP` factors are zero.
 #[inline(always)]
-fn add_line<const W: usize, const FROM: usize, const TO: usize>(
+fn add_line<const W: usize, const SKIP: usize>(
     forces: &mut [f64; W],
     factors: &Factors,
     line: &[f64],
 ) {
-    let line = &line[..TO + W - 1];
-    for column in FROM..TO {
+    let line = &line[..factors.len() - SKIP + W - 1];
+    for column in SKIP..factors.len() - SKIP {
         for (force, value) in forces.iter_mut().zip(&line[column..column + W]) {
             *force += factors[column] * value;
         }

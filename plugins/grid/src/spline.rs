@@ -18,7 +18,7 @@ pub const NO_LINE: Line = [0.0; LANES];
 /// The 36 coefficients that count at a place, row by row.
 pub type Patch = [Line; SPLINES];
 
-/// The coefficients of a place that is infinite.
+/// The coefficients of a place that is infinite or no number.
 pub const NO_PATCH: Patch = [[f64::NAN; LANES]; SPLINES];
 
 /// The same where they lie.
@@ -140,7 +140,7 @@ impl Spline {
     }
 
     /// The coefficients that count at a place (x, y) in a cell. Those that are not kept are put into `patch`. They
-    /// are NaN where the place is infinite. At a place that is no number the splines are none either.
+    /// are NaN where the place is infinite or no number.
     #[inline(always)]
     pub fn lines<'a>(
         &'a self,
@@ -155,12 +155,12 @@ impl Spline {
         patch.each_ref()
     }
 
-    /// The coefficients that count at a place (x, y) that is far out.
+    /// The coefficients that count at a place (x, y) where not all are kept.
     #[cold]
     fn patch_at(&self, place: [f64; 2]) -> Patch {
         let [u, v] = [0, 1].map(|axis| place[axis] * self.per[axis] + self.origin[axis]);
         match u.is_finite() && v.is_finite() {
-            true => self.patch_outside(u.floor() as i64, v.floor() as i64),
+            true => self.patch_outside(u.floor(), v.floor()),
             false => NO_PATCH,
         }
     }
@@ -173,7 +173,8 @@ impl Spline {
             rows,
             values,
         } = &self.coefficients;
-        // A number below zero becomes a very large one.
+        // A number below zero becomes a very large one. A row has eight coefficients at least, those of the margin
+        // included.
         let first = |at: i64| at.wrapping_add(self.kept as i64 - BEFORE as i64) as usize;
         let (left, top) = (first(column), first(row));
         if left >= columns.wrapping_sub(SPLINES - 1) || top >= rows.wrapping_sub(SPLINES - 1) {
@@ -196,9 +197,9 @@ impl Spline {
         ])
     }
 
-    fn patch_outside(&self, column: i64, row: i64) -> Patch {
-        let at = |middle: i64, shift: i64| middle as f64 + (shift - BEFORE as i64) as f64;
-        let shifts: [i64; SPLINES] = [0, 1, 2, 3, 4, 5];
+    fn patch_outside(&self, column: f64, row: f64) -> Patch {
+        let at = |middle: f64, shift: f64| middle + (shift - BEFORE as f64);
+        let shifts: [f64; SPLINES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
         let columns = shifts.map(|right| self.continuation.across(at(column, right)));
         let mut patch = [NO_LINE; SPLINES];
         for (line, down) in patch.iter_mut().zip(shifts) {
@@ -277,6 +278,36 @@ mod tests {
         Spline::through(heights, [-2.0, 1.0], [0.5, 0.3])
     }
 
+    /// 2⁵¹.
+    const FAR: f64 = 2_251_799_813_685_248.0;
+
+    #[test]
+    fn cells_are_whole_numbers_below_their_places() {
+        for places in [
+            [-0.0, 0.0, -1.0, -1.5, 2.0, 2.999, 1e9 + 0.5, -1e9 - 0.5],
+            [FAR - 1.0, 1.0 - FAR, 0.1, -0.1, 7.0, -7.0, 1e15, -1e15],
+        ] {
+            let (cells, rest) = cells(&places, 1.0, 0.0);
+            for (place, (cell, rest)) in places.iter().zip(cells.into_iter().zip(rest)) {
+                assert_eq!((cell as f64, rest), (place.floor(), place - place.floor()));
+            }
+        }
+        // No cell of a spline is so far away.
+        let far = [
+            2.0 * FAR + 1.0,
+            -3.0 * FAR,
+            1e300,
+            -1e300,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::NAN,
+            -f64::NAN,
+        ];
+        let (cells, _) = cells(&far, 1.0, 0.0);
+        let are_far = cells.iter().all(|cell| cell.unsigned_abs() >= 1 << 51);
+        assert!(are_far, "{cells:?}");
+    }
+
     #[test]
     fn the_spline_goes_through_all_points() {
         let spline = spline();
@@ -302,7 +333,7 @@ mod tests {
         for column in -30..60 {
             let patch = |column: i64| match spline.lines_of_cell(column, 3) {
                 Some(lines) => lines.map(|line| *line),
-                None => spline.patch_outside(column, 3),
+                None => spline.patch_outside(column as f64, 3.0),
             };
             let patches = [column - 1, column].map(patch);
             for (before, after) in patches[0].iter().zip(&patches[1]) {
@@ -322,7 +353,7 @@ mod tests {
         assert_eq!((spline.own(), spline.kept), ([16, 13], 6));
         for (column, row) in [(-4, 3), (4, -1), (-1, -4), (18, 15), (15, 2), (3, 15)] {
             let kept = spline.lines_of_cell(column, row).unwrap();
-            let patch = spline.patch_outside(column, row);
+            let patch = spline.patch_outside(column as f64, row as f64);
             for (line, (kept, calculated)) in (row - 2..).zip(kept.iter().zip(&patch)) {
                 for place in 0..SPLINES {
                     let is_own =

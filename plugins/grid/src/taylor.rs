@@ -199,7 +199,7 @@ fn add<const K: usize, const L: usize>(
 }
 
 /// Puts the numbers of the curves into their series. What was not asked for is zero. It is not compiled into loops
-/// for wide registers, as [`Group`] does not turn its places there.
+/// for wide registers, as the places of a [`Group`] are not transposed there.
 #[inline(never)]
 fn put<const K: usize>(orders: &Orders<K>, curves: &mut [Series]) {
     for (i, curve) in curves.iter_mut().enumerate().take(GROUP) {

@@ -20,7 +20,8 @@ pub trait Surface: Send + Sync {
 
     /// Whether the compiler puts many points, and series of many curves, side by side in vector registers. It
     /// does so, and nothing is faster, if the formula has neither loops nor calls and is marked `#[inline(always)]`:
-    /// sums, products, quotients, roots and choices. All ways give the same bits.
+    /// sums, products, quotients, roots and choices. A formula with loops or calls says `false`: otherwise its
+    /// points and curves go one by one. All ways give the same bits.
     const SIDE_BY_SIDE: bool = true;
 
     /// Most coefficients with which series of heights go through the formula in [lanes](crate::Lanes), where

@@ -97,14 +97,14 @@ pub struct SurfaceData {
 impl<T: Surface> SurfaceModel for T {
     fn heights(&self, x: &[f64], y: &[f64], z: &mut [f64]) -> Result<()> {
         same_lengths(x.len(), &[y.len(), z.len()])?;
-        points::<T, _>(Heights(self, x, y, z));
+        over_points::<T, _>(Heights(self, x, y, z));
         Ok(())
     }
 
     fn gradient(&self, x: &[f64], y: &[f64], out: Gradients<'_>) -> Result<()> {
         let Gradients { z, zx, zy } = &out;
         same_lengths(x.len(), &[y.len(), z.len(), zx.len(), zy.len()])?;
-        points::<T, _>(Slopes(self, x, y, out));
+        over_points::<T, _>(Slopes(self, x, y, out));
         Ok(())
     }
 
@@ -162,7 +162,7 @@ impl<T: Surface> SurfaceModel for T {
 }
 
 /// Runs a loop over points.
-fn points<T: Surface, L: LaneLoop>(one: L) -> L::Output {
+fn over_points<T: Surface, L: LaneLoop>(one: L) -> L::Output {
     // What a constant block rules out is not compiled.
     if const { !T::IN_WIDE_REGISTERS } {
         one.one_by_one()
@@ -331,6 +331,16 @@ mod tests {
             registers.run_lanes(Slopes(&Mixture, &x, &y, out));
             assert_eq!(heights, alone[0], "{registers:?}");
             assert_eq!([z, zx, zy], alone, "{registers:?}");
+            let [mut heights, mut z, mut zx, mut zy] = [(); 4].map(|()| vec![f64::NAN; x.len()]);
+            registers.run(OneByOne(Heights(&Mixture, &x, &y, &mut heights)));
+            let out = Gradients {
+                z: &mut z,
+                zx: &mut zx,
+                zy: &mut zy,
+            };
+            registers.run(OneByOne(Slopes(&Mixture, &x, &y, out)));
+            assert_eq!(heights, alone[0], "{registers:?}, one by one");
+            assert_eq!([z, zx, zy], alone, "{registers:?}, one by one");
         });
     }
 
