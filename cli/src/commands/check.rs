@@ -13,7 +13,9 @@ use crate::{Outcome, Status};
 pub fn check(args: &CheckArgs, catalogue: Catalogue) -> Outcome {
     setup::use_threads(&args.work);
     let (recipe, catalogue) = setup::trusted_recipe(&args.recipe, catalogue)?;
-    let report = Job::new(recipe.clone(), &catalogue).and_then(|job| job.check());
+    // On a thread of the pool. If the first thread began, it would hand each part over and wait, and two others
+    // would wake up, now and then on one processor.
+    let report = rayon::scope(|_| Job::new(recipe.clone(), &catalogue).and_then(|job| job.check()));
     match report {
         Ok(report) => print_report(args.work.answer(), &report, text::check)?,
         Err(error) => {
