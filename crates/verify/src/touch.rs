@@ -283,12 +283,12 @@ fn largest_curvature(surface: &dyn SurfaceModel, reach: f64) -> Result<Option<f6
         let finite = |largest: f64, one: f64| one.is_finite().then(|| largest.max(one));
         Ok(curvatures.try_fold(f64::NEG_INFINITY, finite))
     };
-    // A surface that ends somewhere ends at the outermost ring.
+    // Most surfaces that end within reach have no value on the outermost ring: then no other ring is asked.
     let Some(mut largest) = on_ring(0)? else {
         return Ok(None);
     };
     let rings: Vec<Result<Option<f64>>> = (1..=radii).into_par_iter().map(on_ring).collect();
-    // A ring without a value comes before a ring that fails, as if they had been asked one after the other.
+    // The first ring that fails or has no value decides, as if they had been asked one after the other.
     for ring in rings {
         match ring? {
             Some(on_ring) => largest = largest.max(on_ring),

@@ -382,7 +382,13 @@ mod tests {
             }
         }
         let spline = Spline::through(heights, [0.0, 0.0], [0.1, 0.2]);
-        for (x, y) in [(1.0, 2.0), (-0.5, 3.0), (2.5, 6.5), (-0.8, 8.0)] {
+        for (x, y) in [
+            (1.0, 2.0),
+            (-0.5, 3.0),
+            (2.5, 6.5),
+            (-0.8, 8.0),
+            (1e20, 3.0),
+        ] {
             let (found, wanted) = (spline.height(x, y), quadratic(x, y));
             assert!(
                 (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0),

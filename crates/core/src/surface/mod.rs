@@ -216,6 +216,9 @@ mod tests {
     struct Ripple;
 
     impl Surface for Ripple {
+        // So its points go in lanes.
+        const SIDE_BY_SIDE: bool = false;
+
         fn sag<S: Scalar>(&self, x: S, y: S) -> S {
             (x * 3.0).sin() * y.squared() + x
         }
