@@ -46,8 +46,9 @@ impl<const N: usize> Group<N> {
         }
     }
 
+    /// Takes the first `count` of these places.
     #[inline(always)]
-    fn take_places(&mut self, spline: &Spline, x: &Numbers, y: &Numbers, count: usize) {
+    pub fn take_places(&mut self, spline: &Spline, x: &Numbers, y: &Numbers, count: usize) {
         let places = spline.places(x, y);
         self.across = derivatives(&places.s);
         self.down = derivatives(&places.t);
@@ -79,13 +80,14 @@ impl<const N: usize> Group<N> {
 
 /// Puts the numbers of a group into a slice, which may be shorter but not longer.
 #[inline(always)]
-pub fn put(numbers: &Numbers, slice: &mut [f64]) {
-    match slice.as_chunks_mut() {
-        ([whole], _) => *whole = *numbers,
-        (_, some) => some
-            .iter_mut()
-            .zip(numbers)
-            .for_each(|(place, number)| *place = *number),
+pub fn put<const N: usize>(numbers: &[f64; N], slice: &mut [f64]) {
+    match <&mut [f64; N]>::try_from(&mut *slice) {
+        Ok(whole) => *whole = *numbers,
+        Err(_) => {
+            for (place, number) in slice.iter_mut().zip(numbers) {
+                *place = *number;
+            }
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use std::ops::Range;
 use turnpath_plugin::registers::{Loop, in_widest};
 
 use crate::differences::{Differences, REACH};
+use crate::group::put;
 use crate::plate_edge::{EdgeStrips, runs};
 
 /// Most steps of the gradients at each resolution. The coarse sheets leave only short waves to the
@@ -227,10 +228,7 @@ impl Loop for PutForces<'_> {
                 let last = place + REACH * (plate.differences.columns + 1);
                 if last + TOGETHER <= values.len() {
                     let together = plate.force_inside::<TOGETHER>(values, place);
-                    match group.as_chunks_mut() {
-                        ([whole], _) => *whole = together,
-                        (_, rest) => rest.copy_from_slice(&together[..rest.len()]),
-                    }
+                    put(&together, group);
                     continue;
                 }
                 for (force, place) in group.iter_mut().zip(place..) {

@@ -135,7 +135,7 @@ impl<const K: usize, const N: usize> Curves<K, N> {
             (*of_x, *of_y) = (x[0], y[0]);
         }
         let count = x.len().min(GROUP);
-        self.starts.take(spline, &of_x[..count], &of_y[..count]);
+        self.starts.take_places(spline, &of_x, &of_y, count);
         for b in 0..N {
             for a in 0..N - b {
                 self.terms[b][a] = self.starts.term(a, b);
