@@ -13,8 +13,8 @@ use crate::{Outcome, Status};
 pub fn check(args: &CheckArgs, catalogue: Catalogue) -> Outcome {
     setup::use_threads(&args.work);
     let (recipe, catalogue) = setup::trusted_recipe(&args.recipe, catalogue)?;
-    // On a thread of the pool. If the first thread began, it would hand each part over and wait, and two others
-    // would wake up, now and then on one processor.
+    // A thread of the pool begins. The first thread would only hand its parts over and wait. The two threads that
+    // then wake up share one processor now and then, for some milliseconds.
     let report = rayon::scope(|_| Job::new(recipe.clone(), &catalogue).and_then(|job| job.check()));
     match report {
         Ok(report) => print_report(args.work.answer(), &report, text::check)?,
