@@ -24,6 +24,7 @@ mod frozen_boundary;
 mod import;
 mod inputs_stay;
 mod long_programs;
+mod machine_limits;
 mod maps;
 mod new_plugin;
 mod no_surface;

@@ -203,7 +203,7 @@ fn include(plan: &Plan<'_>, block: &BlockPoints, all: &mut [f64]) {
         let to = before(PI * (half + 1) as f64).min(points.len() - 1);
         let part = (from..=to).filter_map(|index| points.get(index));
         let part = PathBlock::of(points.shape, part);
-        let figures = AxesMotion::of(&part).against(machine).into_iter();
+        let figures = AxesMotion::of(&part).against(machine, None).into_iter();
         let of_limits = figures.map(|figure| figure.speed_factor());
         if let Some(headroom) = all.get_mut(half) {
             *headroom = of_limits.fold(*headroom, f64::min);

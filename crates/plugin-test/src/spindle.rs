@@ -21,7 +21,7 @@ pub fn check(chain: &TrialChain, outcome: &Outcome) -> Vec<FaultKind> {
         return Vec::new();
     }
     let mut faults: Vec<FaultKind> = factors(chain).err().into_iter().collect();
-    let figures = outcome.figures.axes.against(&chain.task().machine);
+    let figures = outcome.figures.axes.against(&chain.task().machine, None);
     let exceeded = figures
         .into_iter()
         .filter(|figure| figure.ratio() > 1.0 + SLACK);

@@ -106,8 +106,7 @@ impl Digits {
         let positions = [sign * moved.c / DEG, moved.x, moved.z - format.z_above];
         let velocities = [sign * moved.vc / DEG, moved.vx, moved.vz].map(|v| v * per);
         let has_velocities = format.shape() == SegmentShape::Cubic;
-        let slowest = format.chords.and_then(|chords| chords.slowest);
-        let multiples = slowest.map_or([1; 3], |slowest| slowest.steps(place.in_lead));
+        let multiples = format.position_steps(place.in_lead);
         let (mut position, mut velocity) = ([0; 3], [0; 3]);
         for (k, axis) in AXES.into_iter().enumerate() {
             let units = |value: f64, decimals: u32| {

@@ -176,6 +176,20 @@ impl ProgramFormat {
         }
     }
 
+    /// What positions of C, X and Z are multiples of, in last digits.
+    pub fn position_steps(&self, in_lead: bool) -> [i64; 3] {
+        let slowest = self.chords.and_then(|chords| chords.slowest);
+        slowest.map_or([1; 3], |slowest| slowest.steps(in_lead))
+    }
+
+    /// The part of an absolute position by which the controller rounds it, where it holds few bits.
+    pub fn held_part(&self) -> f64 {
+        match self.mantissa_bits {
+            Some(bits) if !self.incremental => 1.0 / (1_u64 << bits) as f64,
+            _ => 0.0,
+        }
+    }
+
     /// The milliseconds that velocities refer to, which Turbo PMAC has in Ix90.
     pub fn velocity_ms(&self) -> u32 {
         if self.per_minute { 60_000 } else { 1000 }

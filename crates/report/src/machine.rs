@@ -51,6 +51,9 @@ pub struct LimitFigure {
     /// The largest amount and its place; `None` where it was not measured: straight segments have
     /// no jerk, and before a path there is nothing to measure.
     pub measured: Option<(f64, PathPlace)>,
+    /// What is certain of the largest amount, where last digits of a program can make a part of it; `None` where the
+    /// numbers have all digits.
+    pub certain: Option<f64>,
 }
 
 /// The highest speed of the spindle at which the cut holds all limits.
@@ -81,13 +84,22 @@ impl LimitFigure {
         Self {
             limit,
             measured: None,
+            certain: None,
         }
     }
 
-    /// Whether the limit holds; `None` where nothing was measured.
+    /// Whether the limit holds, as far as the amount is certain; `None` where nothing was measured.
     pub fn holds(&self) -> Option<bool> {
-        self.measured
-            .map(|(amount, _)| within(amount, self.limit.value))
+        let amount = self
+            .measured
+            .map(|(amount, _)| self.certain.unwrap_or(amount));
+        amount.map(|amount| within(amount, self.limit.value))
+    }
+
+    /// Whether the limit holds only because last digits can have made what is above it.
+    pub fn holds_without_digits(&self) -> bool {
+        let is_above = |(amount, _)| !within(amount, self.limit.value);
+        self.measured.is_some_and(is_above) && self.holds() == Some(true)
     }
 }
 
@@ -113,6 +125,7 @@ impl Serialize for LimitFigure {
         let (suffix, per) = unit_of(&self.limit);
         let amount = self.measured.map(|(amount, _)| amount);
         let amounts = [("limit", Some(self.limit.value)), ("measured", amount)];
+        let certain = self.certain.map(|amount| ("certain", Some(amount)));
         let entry = |(name, amount): (&str, Option<f64>)| {
             let amount = amount.map(|amount| unit::rounded(amount * per));
             let amount = amount.filter(|amount| amount.is_finite());
@@ -120,7 +133,7 @@ impl Serialize for LimitFigure {
         };
         FileLimit {
             limit: self.limit.key(),
-            amounts: amounts.into_iter().map(entry).collect(),
+            amounts: amounts.into_iter().chain(certain).map(entry).collect(),
             at: self.measured.map(|(_, at)| at),
             holds: self.holds(),
         }
@@ -147,6 +160,7 @@ impl<'de> Deserialize<'de> for LimitFigure {
         Ok(Self {
             limit: Limit { value, ..unvalued },
             measured: limit.at.map(|at| (measured, at)),
+            certain: amount("certain"),
         })
     }
 }
@@ -201,6 +215,7 @@ mod tests {
                 value,
             },
             measured: Some((amount, at)),
+            certain: None,
         }
     }
 

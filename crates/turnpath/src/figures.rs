@@ -6,8 +6,9 @@ use turnpath_report as report;
 use turnpath_report::{LimitFigure, PathPlace};
 use turnpath_verify::machined::{FormScope, MachinedFigures, PartPoint, SurfaceExtremes};
 use turnpath_verify::{
-    AxesMotion, AxisMotion, CoverageFigures, CuttingSpeed, FollowingError, HighestSpeed,
-    LeadFigures, PathFigures, Peak, ResidualFigures, ServoFigures, UncutHeight, UnreachedFigures,
+    AxesMotion, AxisMotion, CertainMotion, CoverageFigures, CuttingSpeed, FollowingError,
+    HighestSpeed, LeadFigures, PathFigures, Peak, ResidualFigures, ServoFigures, UncutHeight,
+    UnreachedFigures,
 };
 
 /// The tolerances that a recipe asks for.
@@ -67,6 +68,8 @@ pub struct CutFigures<'a> {
     pub machined: Option<&'a MachinedFigures>,
     /// The form of that surface, where the recipe has a tolerance of it.
     pub form: Option<&'a SurfaceExtremes>,
+    /// What is certain of its motion, where its numbers were rounded.
+    pub certain: Option<&'a CertainMotion>,
     /// What the servos make of it, where that is asked.
     pub servo: Option<&'a ServoFigures>,
 }
@@ -81,7 +84,7 @@ pub fn path(
     let (playback, points) = (&figures.playback, &figures.points);
     let overrun = report::Overrun::from(recipe.overrun);
     let clearance = lead.as_ref().map(|lead| lead.smallest_clearance);
-    let highest = figures.axes.highest_speed(&recipe.machine);
+    let highest = figures.axes.highest_speed(&recipe.machine, cut.certain);
     report::PathReport {
         tolerance: tolerances(recipe),
         overrun,
@@ -138,7 +141,7 @@ pub fn path(
         cutting_speed: Some(cutting_speed(&figures.cutting_speed)),
         machine: machine_source(recipe).map(|machine| report::MachineReport {
             machine,
-            limits: limits(&figures.axes, recipe),
+            limits: limits(&figures.axes, cut.certain, recipe),
         }),
         highest_spindle: highest.map(|highest| report::HighestSpindle {
             speed: highest_spindle(recipe, &highest, &figures.axes),
@@ -258,17 +261,28 @@ pub fn machine_source(recipe: &Recipe) -> Option<report::MachineSource> {
     })
 }
 
-fn limits(motion: &AxesMotion, recipe: &Recipe) -> Vec<LimitFigure> {
-    let figures = motion.against(&recipe.machine).into_iter();
+fn limits(
+    motion: &AxesMotion,
+    certain: Option<&CertainMotion>,
+    recipe: &Recipe,
+) -> Vec<LimitFigure> {
+    let figures = motion.against(&recipe.machine, certain).into_iter();
     let figure = figures.map(|figure| LimitFigure {
         limit: figure.limit,
         measured: figure.peak.map(|peak| (peak.amount, peak_place(&peak))),
+        certain: figure.certain,
     });
     figure.collect()
 }
 
-/// The leads of a path; `leads` is how a run made them, which a file does not say.
-pub fn lead(figures: &LeadFigures, leads: Option<&Leads>, recipe: &Recipe) -> report::LeadReport {
+/// The leads of a path; `leads` is how a run made them, which a file does not say. `certain` is what is certain of
+/// their motion, where their numbers were rounded.
+pub fn lead(
+    figures: &LeadFigures,
+    leads: Option<&Leads>,
+    certain: Option<&CertainMotion>,
+    recipe: &Recipe,
+) -> report::LeadReport {
     report::LeadReport {
         layout: leads.map(|leads| report::LeadLayout {
             in_time: leads.in_time,
@@ -287,7 +301,7 @@ pub fn lead(figures: &LeadFigures, leads: Option<&Leads>, recipe: &Recipe) -> re
             c: figures.jumps.c,
         },
         axes: axes(&figures.axes),
-        limits: limits(&figures.axes, recipe),
+        limits: limits(&figures.axes, certain, recipe),
     }
 }
 

@@ -8,8 +8,9 @@ use turnpath_post::ReadPath;
 use turnpath_recipe::Recipe;
 use turnpath_report::Overrun;
 use turnpath_verify::{
-    AnomalyDetector, BlockFigures, FirstTouch, LeadBlockFigures, LeadMeter, Meter,
-    ProgramBlockFigures, ProgramMeter, ServoBlockFigures, ServoMeter, ServoStart, in_order,
+    AnomalyDetector, BlockFigures, CertainBlock, CertainMeter, FirstTouch, LeadBlockFigures,
+    LeadMeter, Meter, ProgramBlockFigures, ProgramMeter, Rounding, ServoBlockFigures, ServoMeter,
+    ServoStart, in_order,
 };
 
 use crate::diagnosis::of_measure;
@@ -55,6 +56,8 @@ pub struct PathMeters {
     pub lead: LeadMeter,
     /// What the servos make of it, where that is asked.
     pub servo: Option<ServoMeter>,
+    /// What is certain of the motion of the axes, where the file has last digits.
+    pub certain: Option<CertainMeter>,
     /// Control points that stand out among their neighbours, where that may be asked.
     pub anomalies: Option<AnomalyDetector>,
 }
@@ -69,6 +72,7 @@ impl PathMeters {
                 .with_form(form_scope(recipe)),
             lead: LeadMeter::default(),
             servo: None,
+            certain: None,
             anomalies: None,
         }
     }
@@ -76,6 +80,14 @@ impl PathMeters {
     /// The same with the servos that the recipe asks for.
     pub fn with_servo(mut self, recipe: &Recipe) -> Self {
         self.servo = recipe.servo.as_ref().map(ServoMeter::new);
+        self
+    }
+
+    /// The same with what is certain of the motion of the axes, if the numbers of the cut and of the leads were
+    /// rounded, and the recipe has limits.
+    pub fn with_certain(mut self, recipe: &Recipe, roundings: Option<[Rounding; 2]>) -> Self {
+        let roundings = roundings.filter(|_| recipe.machine.has_limits());
+        self.certain = roundings.map(|[of_cut, of_leads]| CertainMeter::new(of_cut, of_leads));
         self
     }
 
@@ -108,12 +120,19 @@ impl Meters for PathMeters {
         points: PathBlock,
         start: Option<ServoStart>,
     ) -> Result<MeasuredBlock, StrategyError> {
-        MeasuredBlock::new(self.cut.touch(), section, points, start)
+        let certain = self.certain.as_ref();
+        Ok(MeasuredBlock {
+            certain: certain.map(|meter| meter.measure(section, &points)),
+            of_section: SectionFigures::new(self.cut.touch(), section, points, start)?,
+        })
     }
 
     fn append(&mut self, block: MeasuredBlock) -> Result<(), StrategyError> {
-        match block {
-            MeasuredBlock::Cut(cut) => {
+        if let (Some(meter), Some(certain)) = (&mut self.certain, &block.certain) {
+            meter.append(certain);
+        }
+        match block.of_section {
+            SectionFigures::Cut(cut) => {
                 let CutBlock {
                     figures,
                     servo,
@@ -126,7 +145,7 @@ impl Meters for PathMeters {
                 }
                 self.cut.append(figures)
             }
-            MeasuredBlock::Lead(lead) => {
+            SectionFigures::Lead(lead) => {
                 let (figures, points) = *lead;
                 self.look_for_anomalies(&points, &[]);
                 self.lead.append(&figures);
@@ -227,18 +246,25 @@ impl Meters for ProgramMeters {
 }
 
 /// A block of a path with its figures.
-pub enum MeasuredBlock {
+pub struct MeasuredBlock {
+    /// What is certain of its motion, where that is asked.
+    certain: Option<CertainBlock>,
+    of_section: SectionFigures,
+}
+
+/// What was measured on a block of the cut, or of a lead.
+enum SectionFigures {
     Cut(Box<CutBlock>),
     Lead(Box<(LeadBlockFigures, PathBlock)>),
 }
 
-pub struct CutBlock {
+struct CutBlock {
     figures: BlockFigures,
     servo: Option<ServoBlockFigures>,
     points: PathBlock,
 }
 
-impl MeasuredBlock {
+impl SectionFigures {
     fn new(
         touch: &FirstTouch,
         section: Section,

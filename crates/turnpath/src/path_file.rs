@@ -6,7 +6,7 @@ use turnpath_core::DEG;
 use turnpath_core::toolpath::{ControlPoint, Section, SegmentShape};
 use turnpath_post::{Layout, PathReader, ReadError, ReadPath, post_of_extension, text_name};
 use turnpath_recipe::Recipe;
-use turnpath_verify::HalfDigits;
+use turnpath_verify::{HalfDigits, Rounding};
 
 use crate::error::Error;
 use crate::posts::{layout, refuse_undecided};
@@ -66,6 +66,29 @@ impl SourceFile {
         self.program.map_or(0.0, |Layout { format, .. }| {
             one_in(format.velocity_decimals) / format.velocity_time()
         })
+    }
+
+    /// By how much its numbers lie beside those that were rounded, in the cut and in leads; `None` if it has all
+    /// digits of a double.
+    pub fn roundings(&self) -> Option<[Rounding; 2]> {
+        let Layout { format, .. } = self.program?;
+        let digits = self.half_digits();
+        let of_straight = format.shape() == SegmentShape::Linear;
+        let rounding = |in_lead: bool| {
+            let [c, x, z] = format.position_steps(in_lead).map(|steps| steps as f64);
+            Rounding {
+                position: x.max(z) * digits.position,
+                angle: c * digits.angle,
+                velocity: if of_straight { 0.0 } else { digits.velocity },
+                angular_velocity: if of_straight {
+                    0.0
+                } else {
+                    digits.angular_velocity
+                },
+                part: format.held_part(),
+            }
+        };
+        Some([rounding(false), rounding(true)])
     }
 
     /// Half of its last digits; zero if it has all digits of a double.

@@ -301,8 +301,9 @@ impl Job {
     ) -> Result<RunReport, Error> {
         let recipe = &self.recipe;
         let leads = outcome.lead.as_ref();
-        let lead = leads.map(|leads| figures::lead(&leads.figures, Some(leads), recipe));
+        let lead = leads.map(|leads| figures::lead(&leads.figures, Some(leads), None, recipe));
         let cut = CutFigures {
+            certain: None,
             path: &outcome.figures,
             machined: outcome.machined.as_ref(),
             form: outcome.form.as_ref(),

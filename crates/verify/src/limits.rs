@@ -9,6 +9,7 @@
 use turnpath_core::{Axis, Derivative, Limit, Machine, Scalar};
 
 use crate::axes::{AxesMotion, Peak};
+use crate::certain_motion::CertainMotion;
 
 /// One limit and the largest amount on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,6 +18,8 @@ pub struct LimitFigure {
     pub limit: Limit,
     /// The largest amount; `None` where no such figure exists: the jerk of straight segments.
     pub peak: Option<Peak>,
+    /// What is certain of it, where the path's numbers were rounded to last digits; `None` where they were not.
+    pub certain: Option<f64>,
 }
 
 /// The highest speed at which a path can be played.
@@ -31,9 +34,10 @@ pub struct HighestSpeed {
 }
 
 impl LimitFigure {
-    /// The largest amount over the limit; 0 where there is no figure.
+    /// The largest amount over the limit, as far as it is certain; 0 where there is no figure.
     pub fn ratio(&self) -> f64 {
-        self.peak.map_or(0.0, |peak| peak.amount / self.limit.value)
+        let amount = self.peak.map(|peak| self.certain.unwrap_or(peak.amount));
+        amount.map_or(0.0, |amount| amount / self.limit.value)
     }
 
     /// The factor by which the speed can grow until the limit is reached. The n-th derivative in
@@ -46,11 +50,17 @@ impl LimitFigure {
 }
 
 impl AxesMotion {
-    /// Each limit of the machine with the path's largest amount.
-    pub fn against(&self, machine: &Machine) -> Vec<LimitFigure> {
-        let figure = |limit: Limit| LimitFigure {
-            limit,
-            peak: self.peak(limit.axis, limit.derivative),
+    /// Each limit of the machine with the path's largest amount. `certain` is what is certain of the motion, if the
+    /// path's numbers were rounded.
+    pub fn against(&self, machine: &Machine, certain: Option<&CertainMotion>) -> Vec<LimitFigure> {
+        let figure = |limit: Limit| {
+            let peak = self.peak(limit.axis, limit.derivative);
+            let certain = certain.map(|motion| motion.amount(limit.axis, limit.derivative));
+            LimitFigure {
+                limit,
+                peak,
+                certain: certain.filter(|_| peak.is_some()),
+            }
         };
         machine.limits().map(figure).collect()
     }
@@ -58,8 +68,12 @@ impl AxesMotion {
     /// The highest speed of the spindle at which this motion holds all limits, if nothing else
     /// about the path changes. Leads do not scale in this way: they keep their clearance and their
     /// own gentle limits at every speed. `None` if no limit bounds the speed.
-    pub fn highest_speed(&self, machine: &Machine) -> Option<HighestSpeed> {
-        let figures = self.against(machine).into_iter();
+    pub fn highest_speed(
+        &self,
+        machine: &Machine,
+        certain: Option<&CertainMotion>,
+    ) -> Option<HighestSpeed> {
+        let figures = self.against(machine, certain).into_iter();
         let factors = figures.map(|figure| (figure.speed_factor(), figure.limit));
         let least = factors.min_by(|one, other| one.0.total_cmp(&other.0));
         least
@@ -126,11 +140,11 @@ mod tests {
             (Axis::C, Derivative::Velocity, 4.5),
         ] {
             let machine = machine(axis, derivative, limit);
-            let highest = played(1.0, SegmentShape::Cubic).highest_speed(&machine);
+            let highest = played(1.0, SegmentShape::Cubic).highest_speed(&machine, None);
             let highest = highest.expect("a bound");
             assert_eq!(highest.bound_by.axis, axis);
             let again = played(highest.speed / 3.0, SegmentShape::Cubic);
-            let ratio = again.against(&machine)[0].ratio();
+            let ratio = again.against(&machine, None)[0].ratio();
             assert!((ratio - 1.0).abs() < 1e-12, "{derivative:?}: {ratio}");
         }
     }
@@ -141,7 +155,7 @@ mod tests {
         machine.z.acceleration = Some(6.0);
         machine.z.jerk = Some(3.0);
         // Factors 1/2, 1/√2, 1/∛2.
-        let highest = played(1.0, SegmentShape::Cubic).highest_speed(&machine);
+        let highest = played(1.0, SegmentShape::Cubic).highest_speed(&machine, None);
         let highest = highest.expect("a bound");
         assert_eq!(highest.bound_by.derivative, Derivative::Velocity);
         assert!((highest.speed - 1.5).abs() < 1e-12);
@@ -150,13 +164,13 @@ mod tests {
     #[test]
     fn nothing_binds_where_there_is_no_limit_no_motion_or_no_figure() {
         let cubic = played(1.0, SegmentShape::Cubic);
-        assert_eq!(cubic.highest_speed(&Machine::default()), None);
+        assert_eq!(cubic.highest_speed(&Machine::default(), None), None);
         let at_rest = machine(Axis::X, Derivative::Acceleration, 1.0);
-        assert_eq!(cubic.highest_speed(&at_rest), None);
-        assert_eq!(cubic.against(&at_rest)[0].ratio(), 0.0);
+        assert_eq!(cubic.highest_speed(&at_rest, None), None);
+        assert_eq!(cubic.against(&at_rest, None)[0].ratio(), 0.0);
         let jerk = machine(Axis::Z, Derivative::Jerk, 1e-3);
         let straight = played(1.0, SegmentShape::Linear);
-        assert_eq!(straight.against(&jerk)[0].peak, None);
-        assert_eq!(straight.highest_speed(&jerk), None);
+        assert_eq!(straight.against(&jerk, None)[0].peak, None);
+        assert_eq!(straight.highest_speed(&jerk, None), None);
     }
 }

@@ -74,7 +74,9 @@ fn limit_rows(report: &RunReport) -> String {
         .map(|limit| ("", limit))
         .chain(lead.map(|limit| ("lead: ", limit)));
     let rows = rows.filter_map(|(of, figure)| {
-        let LimitFigure { limit, measured } = figure;
+        let LimitFigure {
+            limit, measured, ..
+        } = figure;
         let (amount, _) = (*measured)?;
         let name = format!("{of}{}", limit_name(limit.axis, limit.derivative));
         let (found, most) = (

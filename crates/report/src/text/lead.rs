@@ -3,7 +3,7 @@
 use crate::coverage::SMALLEST_CROSSING;
 use crate::lead::LeadReport;
 
-use super::machine::exceeded;
+use super::machine::{by_digits, exceeded};
 use super::numbers::{duration, line, millimetres, path_place, small_length};
 
 /// A lead ends where the cut begins: what rounds to 0.00 nm is a touch, mm.
@@ -25,7 +25,7 @@ pub fn lead(lead: &LeadReport, clears: Option<bool>) -> String {
     if let Some(warning) = lead_warning(lead) {
         text += &line("lead warning", warning);
     }
-    text + &exceeded(&lead.limits, "lead ")
+    text + &exceeded(&lead.limits, "lead ") + &by_digits(&lead.limits, "lead ")
 }
 
 /// The warning where X crosses the axis on a lead; `None` where it does not.

@@ -26,6 +26,22 @@ fn exceeded_line(figure: &LimitFigure, of: &str) -> Option<String> {
     Some(line(&format!("{of}{} ", name(figure)), text))
 }
 
+/// The lines on limits above which last digits reach, each after the name of what was measured.
+pub fn by_digits(limits: &[LimitFigure], of: &str) -> String {
+    let lines = limits
+        .iter()
+        .filter(|figure| figure.holds_without_digits())
+        .filter_map(|figure| {
+            let ((amount, _), certain) = figure.measured.zip(figure.certain)?;
+            let limit = &figure.limit;
+            let [amount, certain, most] =
+                [amount, certain, limit.value].map(|amount| limit_amount(limit, amount));
+            let text = format!("{certain:>12} of {most:<11} holds; {amount} with last digits");
+            Some(line(&format!("{of}{} ", name(figure)), text))
+        });
+    lines.collect()
+}
+
 fn name(figure: &LimitFigure) -> String {
     limit_name(figure.limit.axis, figure.limit.derivative)
 }
@@ -33,6 +49,7 @@ fn name(figure: &LimitFigure) -> String {
 /// The lines on a path.
 pub fn machine(report: &MachineReport) -> String {
     let mut text = exceeded(&report.limits, "");
+    text += &by_digits(&report.limits, "");
     let machine = report.machine.name();
     let unmeasured = report.limits.iter().filter(|one| one.measured.is_none());
     let unmeasured: Vec<String> = unmeasured.map(name).collect();
@@ -101,7 +118,15 @@ mod tests {
             value,
         };
         let measured = Some((amount, at));
-        exceeded(&[LimitFigure { limit, measured }], "")
+        let certain = None;
+        exceeded(
+            &[LimitFigure {
+                limit,
+                measured,
+                certain,
+            }],
+            "",
+        )
     }
 
     #[test]

@@ -19,7 +19,7 @@ use turnpath_post::{post_of_extension, text_name};
 use turnpath_recipe::{Recipe, RoughPath};
 use turnpath_report as report;
 use turnpath_report::FileReport;
-use turnpath_verify::{AnomalyDetector, FirstTouch, ServoMeter, Subject, unreached};
+use turnpath_verify::{AnomalyDetector, CertainMeter, FirstTouch, ServoMeter, Subject, unreached};
 
 use crate::commands::{CommandDifferences, command_differences};
 use crate::data_files::DataFiles;
@@ -129,6 +129,7 @@ impl<'a> Target<'a> {
         let touch = FirstTouch::new(self.subject.clone()).map_err(failed)?;
         let meters = PathMeters::new(recipe, touch)
             .with_servo(recipe)
+            .with_certain(recipe, file.roundings())
             .with_anomalies(recipe);
         observer.begin(Stage::Measure, 0);
         let shape = file.shape(self.shape);
@@ -142,13 +143,16 @@ impl<'a> Target<'a> {
         let machined = meter.machined().map_err(failed)?;
         let figures = meter.figures().map_err(failed)?;
         let lead = meters.lead.figures();
-        let lead = lead.map(|lead| figures::lead(lead, None, recipe));
+        let certain = meters.certain.as_ref();
+        let of_leads = certain.map(CertainMeter::leads);
+        let lead = lead.map(|lead| figures::lead(lead, None, of_leads, recipe));
         let servo = meters.servo.as_ref().map(ServoMeter::figures);
         let form = meter.form().map_err(failed)?;
         let cut = CutFigures {
             path: &figures,
             machined: machined.as_ref(),
             form: form.as_ref(),
+            certain: certain.map(CertainMeter::cut),
             servo,
         };
         let path = figures::path(recipe, &cut, lead);

@@ -1,0 +1,92 @@
+//! Limits of the machine on programs: their last digits make jerks that the path has not.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic too")]
+
+use std::fmt::Write as _;
+
+use serde_json::Value;
+
+use crate::support::bench::Bench;
+use crate::support::recipe::{SADDLE, with_table};
+
+/// Limits that a path holds by less than a thousandth.
+fn limits_above(summary: &Value) -> String {
+    let mut table = String::from("[machine]\n");
+    for axis in ["x", "z"] {
+        for (what, unit) in [
+            ("velocity", "mm_per_s"),
+            ("acceleration", "mm_per_s2"),
+            ("jerk", "mm_per_s3"),
+        ] {
+            let most = &summary["axes"][axis][format!("max_{what}_{unit}")];
+            let (most, unit) = (most.as_f64().unwrap(), unit.replace("_per_", "/"));
+            let unit = unit.replace("s2", "s^2").replace("s3", "s^3");
+            writeln!(table, "{axis}_{what} = \"{:.9} {unit}\"", 1.0005 * most).unwrap();
+        }
+    }
+    table
+}
+
+/// A saddle with these posts in `out`, whose path just holds the limits of its machine.
+fn made(posts: &str) -> Bench {
+    let recipe = with_table(SADDLE, "feed", "use = \"atpg\"");
+    let recipe = format!("{recipe}\n[output]\nposts = [{posts}]\n");
+    let bench = Bench::with(&recipe);
+    bench.line("run recipe.toml -o free").ends(0);
+    let limits = limits_above(&serde_json::from_str(&bench.read("free/summary.json")).unwrap());
+    bench.write("recipe.toml", format!("{recipe}\n{limits}"));
+    bench.line("run recipe.toml -o out").ends(0);
+    bench
+}
+
+fn limit<'a>(report: &'a Value, name: &str) -> &'a Value {
+    let limits = report["machine"]["limits"].as_array().unwrap();
+    let limit = limits.iter().find(|limit| limit["limit"] == name);
+    limit.unwrap()
+}
+
+#[test]
+fn programs_hold_the_limits_of_their_path_whatever_their_last_digits_make() {
+    let bench = made(r#""pmac-pvt", "power-pmac-pvt", "automation1-pvt", "beckhoff-g93""#);
+    for (program, name, unit) in [
+        ("recipe.pmc", "x_jerk", "mm_per_s3"),
+        ("recipe.ppmc", "x_jerk", "mm_per_s3"),
+        ("recipe.ascript", "x_jerk", "mm_per_s3"),
+        ("recipe.cnc", "x_acceleration", "mm_per_s2"),
+    ] {
+        let said = bench.line(&format!("verify recipe.toml out/{program} --format json"));
+        let report = said.ends(0).json();
+        assert_eq!(report["within"]["machine"], true, "{program}");
+        let of = |key: &str| {
+            let amount = &limit(&report, name)[format!("{key}_{unit}")];
+            amount.as_f64().unwrap()
+        };
+        let [certain, most, measured] = ["certain", "limit", "measured"].map(of);
+        assert!(
+            certain < most && most < measured,
+            "{program}: {certain} {most} {measured}"
+        );
+    }
+    let said = bench.line("verify recipe.toml out/recipe.pmc").ends(0);
+    assert!(said.stdout.contains("with last digits"), "{said}");
+    // All digits of a double are certain.
+    let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
+    let report = said.ends(0).json();
+    let jerk = limit(&report, "x_jerk").as_object().unwrap();
+    assert!(!jerk.contains_key("certain_mm_per_s3"));
+}
+
+#[test]
+fn a_program_with_a_row_that_is_moved_exceeds_the_limits() {
+    let bench = made(r#""pmac-pvt""#);
+    let text = bench.read("out/recipe.pmc");
+    let row = text.lines().filter(|line| line.starts_with('C')).nth(500);
+    let row = row.unwrap();
+    let (before, x) = row.split_once(" X").unwrap();
+    let (x, after) = x.split_once(':').unwrap();
+    let moved = x.parse::<f64>().unwrap() + 1e-6;
+    let spoiled = text.replace(row, &format!("{before} X{moved:.7}:{after}"));
+    bench.write("spoiled.pmc", spoiled);
+    let said = bench.line("verify recipe.toml spoiled.pmc").ends(1);
+    assert!(said.stdout.contains("X jerk"), "{said}");
+    assert!(said.stdout.contains("EXCEEDED"), "{said}");
+}
