@@ -1,7 +1,7 @@
 //! Remarks on what is allowed but seldom meant: one line each, and no other status.
 
 use crate::support::bench::Bench;
-use crate::support::recipe::{SADDLE, changed};
+use crate::support::recipe::{SADDLE, changed, with_table};
 
 /// The remarks of a call in JSON, and the number of their lines in text.
 #[track_caller]
@@ -91,6 +91,43 @@ fn a_fast_z_has_one_unless_the_machine_has_a_limit() {
     let limited = format!("{fast} --format json --set machine.z_acceleration=100g");
     let json = bench.line(&limited).ends(0).json();
     assert_eq!(json["remarks"], serde_json::json!([]));
+}
+
+/// A sphere that is 30° steep at its rim. On a flat, cusps of 20 nm of a nose of 0.5 mm end
+/// acos(1 − 20 nm/0.5 mm) = 0.5125° beyond the contact: so 61.02° are enough, and less is not.
+#[test]
+fn an_edge_that_ends_before_passes_meet_has_one_with_the_angle_that_is_enough() {
+    let sphere = with_table(SADDLE, "surface", "use = \"conic\"\nradius = \"5 mm\"");
+    let sphere = changed(
+        &sphere,
+        "nose_radius = \"1 mm\"",
+        "nose_radius = \"0.5 mm\"",
+    );
+    let sphere = changed(&sphere, "residual = \"100 nm\"", "residual = \"20 nm\"");
+    let sphere = with_table(&sphere, "feed", "use = \"atpg\"");
+    let sphere = changed(&sphere, "overrun = \"none\"", "overrun = \"contact\"");
+    let bench = Bench::with(&sphere);
+    let of = |included_angle: &str, status: i32| {
+        let change = format!("--set tool.included_angle={included_angle}deg --format json");
+        let check = bench.line(&format!("check recipe.toml {change}")).ends(0);
+        let run = bench.line(&format!("run recipe.toml -o out {change}"));
+        [check, run.ends(status)].map(|said| said.json()["remarks"][0].clone())
+    };
+    for remark in of("60.2", 1) {
+        assert_eq!(remark["kind"], "short_edge");
+        let has = |key: &str, wanted: f64, within: f64| {
+            let number = remark[key].as_f64();
+            let is_near = number.is_some_and(|number| (number - wanted).abs() < within);
+            assert!(is_near, "{key}: {remark}");
+        };
+        has("edge_deg", 0.1, 1e-3);
+        has("meeting_deg", 0.5125, 0.03);
+        has("included_angle_deg", 61.02, 0.06);
+    }
+    assert_eq!(
+        of("61.1", 0),
+        [serde_json::Value::Null, serde_json::Value::Null]
+    );
 }
 
 /// At 2000 rpm a segment of 0.1 ms is more than a degree. Its error is far above a picometre.

@@ -57,6 +57,18 @@ pub enum Remark {
         #[serde(rename = "shortest_s", with = "unit::s")]
         shortest: f64,
     },
+    /// The edge of the tool ends between the steepest contact and the place where neighbouring passes meet.
+    ShortEdge {
+        /// How far the edge goes on beyond the steepest contact, rad.
+        #[serde(rename = "edge_deg", with = "unit::deg")]
+        edge: f64,
+        /// How far beyond their contacts neighbouring passes meet, about, rad.
+        #[serde(rename = "meeting_deg", with = "unit::deg")]
+        meeting: f64,
+        /// The included angle with which the edge goes so far, rad.
+        #[serde(rename = "included_angle_deg", with = "unit::deg")]
+        included_angle: f64,
+    },
     /// The cut takes longer than a working day.
     LongCut {
         /// Time of the cutting section, s.

@@ -13,13 +13,14 @@ use crate::diagnosis::of_pipeline;
 use crate::error::Error;
 use crate::job::Job;
 use crate::plugins::used;
-use crate::remarks::{PathSubject, remarks};
+use crate::remarks::{PathSubject, remarks, short_edge};
 
 impl Job {
     /// All remarks on the recipe and its path.
     pub(crate) fn remarks(&self, path: &PathSubject) -> Result<Vec<Remark>, Error> {
-        let cut_angle = self.preparation.interference.cut_angle().value;
-        let mut all = remarks(&self.recipe, path, cut_angle);
+        let found = &self.preparation.interference;
+        let mut all = remarks(&self.recipe, path, found.cut_angle().value);
+        all.extend(short_edge(&self.recipe, path, found.contact_angle().value));
         all.extend(self.data_remarks(path.tolerance.interpolation)?);
         all.extend(inexact(
             &self.recipe,

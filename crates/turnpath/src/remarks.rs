@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Axis, DEG, Derivative, Scalar, Tolerance};
+use turnpath_core::{Axis, DEG, Derivative, Misfit, Scalar, Tolerance};
 use turnpath_pipeline::SMALLEST_SEGMENT;
 use turnpath_post::Layout;
 use turnpath_recipe::Recipe;
@@ -61,6 +61,26 @@ pub fn shortest_segments(tolerance: &Tolerance, playback: &PlaybackFigures) -> O
     (is_shortest && playback.max() > tolerance.interpolation).then_some(Remark::ShortestSegments {
         segment_time: playback.segment_time,
         shortest: SMALLEST_SEGMENT,
+    })
+}
+
+/// The remark on a tool whose edge ends before the tips of the cusps at the steepest contact, which has this angle to
+/// the horizontal, rad. Where the nose may leave seams, what it leaves is measured instead.
+pub fn short_edge(recipe: &Recipe, path: &PathSubject, steepest: f64) -> Option<Remark> {
+    let (tool, part) = (&recipe.tool, &recipe.part);
+    let included_angle = tool
+        .included_angle
+        .filter(|_| tool.misfit == Misfit::Refuse)?;
+    let edge = 0.5 * included_angle - steepest;
+    // Passes are a mean feed apart, and no farther than cusps of the residual allow on a flat.
+    let feed = (part.aperture_radius - part.inner_radius) / path.revolutions;
+    let half_spacing = 0.5 * feed / (Scalar::cos(steepest) * tool.nose_radius);
+    let of_residual = Scalar::acos((1.0 - path.tolerance.residual / tool.nose_radius).max(0.0));
+    let meeting = Scalar::asin(half_spacing.min(1.0)).min(of_residual);
+    (edge < meeting).then_some(Remark::ShortEdge {
+        edge,
+        meeting,
+        included_angle: 2.0 * (steepest + meeting),
     })
 }
 

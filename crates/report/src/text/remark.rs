@@ -44,6 +44,19 @@ pub fn sentence(remark: &Remark) -> String {
                  take longer"
             )
         }
+        Remark::ShortEdge {
+            edge,
+            meeting,
+            included_angle,
+        } => {
+            let [edge, meeting, included_angle] =
+                [edge, meeting, included_angle].map(|angle| angle / DEG);
+            format!(
+                "the edge ends {edge:.3} deg beyond the steepest contact, and passes meet about \
+                 {meeting:.3} deg beyond theirs: cusps are higher there, and a pass that ends at the rim \
+                 may leave it uncut; an included angle of {included_angle:.2} deg reaches so far"
+            )
+        }
         Remark::LongCut { cutting_time } => {
             format!(
                 "the cut takes {}, longer than a working day",
