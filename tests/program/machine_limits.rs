@@ -75,18 +75,70 @@ fn programs_hold_the_limits_of_their_path_whatever_their_last_digits_make() {
     assert!(!jerk.contains_key("certain_mm_per_s3"));
 }
 
-#[test]
-fn a_program_with_a_row_that_is_moved_exceeds_the_limits() {
-    let bench = made(r#""pmac-pvt""#);
-    let text = bench.read("out/recipe.pmc");
-    let row = text.lines().filter(|line| line.starts_with('C')).nth(500);
-    let row = row.unwrap();
+/// The saddle's program with X of one row moved by a nanometre. The row of number 500 is at 12.5 turns.
+fn moved_by_a_nanometre(program: &str) -> String {
+    let rows = program.lines().filter(|line| line.starts_with('C'));
+    let row = rows.clone().nth(500).unwrap();
     let (before, x) = row.split_once(" X").unwrap();
     let (x, after) = x.split_once(':').unwrap();
     let moved = x.parse::<f64>().unwrap() + 1e-6;
-    let spoiled = text.replace(row, &format!("{before} X{moved:.7}:{after}"));
-    bench.write("spoiled.pmc", spoiled);
+    program.replace(row, &format!("{before} X{moved:.7}:{after}"))
+}
+
+#[test]
+fn a_program_with_a_row_that_is_moved_exceeds_the_limits_at_its_place() {
+    let bench = made(r#""pmac-pvt""#);
+    bench.line("verify recipe.toml out/recipe.pmc").ends(0);
+    bench.write(
+        "spoiled.pmc",
+        moved_by_a_nanometre(&bench.read("out/recipe.pmc")),
+    );
     let said = bench.line("verify recipe.toml spoiled.pmc").ends(1);
-    assert!(said.stdout.contains("X jerk"), "{said}");
-    assert!(said.stdout.contains("EXCEEDED"), "{said}");
+    let line = said
+        .stdout
+        .lines()
+        .find(|line| line.contains("X jerk"))
+        .unwrap();
+    assert!(line.contains("EXCEEDED"), "{said}");
+    let (_, c) = line.split_once("at C = ").unwrap();
+    let c: f64 = c.split_once(" deg").unwrap().0.parse().unwrap();
+    assert!((c - 4500.0).abs() < 10.0, "{line}");
+    // Who says that the program has five decimals is not told that it holds.
+    let coarse = "--set output.pmac-pvt.position_decimals=5";
+    let said = bench.line(&format!("verify recipe.toml spoiled.pmc {coarse}"));
+    assert!(said.ends(1).stdout.contains("X jerk"));
+}
+
+/// Turbo PMAC holds a C within a turn with 35 bits, after a hundred turns as after one.
+#[test]
+fn a_row_that_is_turned_exceeds_the_limit_of_c_on_any_turn() {
+    let recipe = with_table(SADDLE, "feed", "use = \"atpg\"");
+    let settings = "[output.pmac-pvt]\nc_wrap = \"0-360\"\n\n[machine]\nc_jerk = \"10 rad/s^3\"";
+    let bench = Bench::with(&format!(
+        "{recipe}\n[output]\nposts = [\"pmac-pvt\"]\n\n{settings}\n"
+    ));
+    bench.line("run recipe.toml -o out").ends(0);
+    bench.line("verify recipe.toml out/recipe.pmc").ends(0);
+    let program = bench.read("out/recipe.pmc");
+    let rows = program.lines().filter(|line| line.starts_with('C'));
+    let rows: Vec<&str> = rows.collect();
+    for number in [100, 3900] {
+        let (c, after) = rows[number].split_once(':').unwrap();
+        let turned = c[1..].parse::<f64>().unwrap() + 2e-5;
+        let spoiled: Vec<String> = program
+            .lines()
+            .map(|line| match std::ptr::eq(line, rows[number]) {
+                true => format!("C{turned:.7}:{after}"),
+                false => line.to_owned(),
+            })
+            .collect();
+        bench.write("spoiled.pmc", spoiled.join("\n") + "\n");
+        let said = bench.line("verify recipe.toml spoiled.pmc").ends(1);
+        let line = said
+            .stdout
+            .lines()
+            .find(|line| line.contains("C jerk"))
+            .unwrap();
+        assert!(line.contains("EXCEEDED"), "{number}: {said}");
+    }
 }

@@ -53,6 +53,9 @@ pub enum FeedMeaning {
     Seconds,
 }
 
+/// Most steps by which a place of a lead is lifted, so that the line to it is not too slow.
+const LIFTS: f64 = 2.0;
+
 /// The slowest motion that a controller plays in the time that F says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slowest {
@@ -177,17 +180,29 @@ impl ProgramFormat {
     }
 
     /// What positions of C, X and Z are multiples of, in last digits.
-    pub fn position_steps(&self, in_lead: bool) -> [i64; 3] {
+    pub(crate) fn position_steps(&self, in_lead: bool) -> [i64; 3] {
         let slowest = self.chords.and_then(|chords| chords.slowest);
         slowest.map_or([1; 3], |slowest| slowest.steps(in_lead))
     }
 
-    /// The part of an absolute position by which the controller rounds it, where it holds few bits.
-    pub fn held_part(&self) -> f64 {
-        match self.mantissa_bits {
-            Some(bits) if !self.incremental => 1.0 / (1_u64 << bits) as f64,
-            _ => 0.0,
-        }
+    /// By how much positions of C, X and Z may lie beside those of the path, in last digits: half of what they are
+    /// multiples of. A place of a lead may also have been lifted.
+    pub fn position_rounding(&self, in_lead: bool) -> [f64; 3] {
+        let slowest = self.chords.and_then(|chords| chords.slowest);
+        let lifts = if in_lead && slowest.is_some() {
+            LIFTS
+        } else {
+            0.0
+        };
+        let [c, x, z] = self.position_steps(in_lead).map(|step| step as f64);
+        [0.5 * c, 0.5 * x, (0.5 + lifts) * z]
+    }
+
+    /// The part of an absolute position by which the controller's numbers move it, at most; `None` where they hold
+    /// all digits of a double, or where the program says distances.
+    pub fn held_part(&self) -> Option<f64> {
+        let bits = self.mantissa_bits.filter(|_| !self.incremental)?;
+        Some(1.0 / (1_u64 << bits.min(53)) as f64)
     }
 
     /// The milliseconds that velocities refer to, which Turbo PMAC has in Ix90.
@@ -216,12 +231,12 @@ impl ProgramFormat {
     /// The most by which the controller's numbers move a position of this size, in its unit; `None` where
     /// they hold all digits of a double, or where the program says distances.
     pub fn held_rounding(&self, position: f64) -> Option<f64> {
-        let bits = self.mantissa_bits.filter(|_| !self.incremental)?;
-        let mut quantum = 1.0 / (1_u64 << bits.min(53)) as f64;
-        while quantum * ((1_u64 << bits.min(53)) as f64) <= position.abs() {
-            quantum *= 2.0;
+        let part = self.held_part()?;
+        let mut size = 1.0;
+        while size <= position.abs() {
+            size *= 2.0;
         }
-        Some(0.5 * quantum)
+        Some(0.5 * part * size)
     }
 
     /// 1, or −1 if the program's C runs against the path's.

@@ -51,9 +51,9 @@ pub struct LimitFigure {
     /// The largest amount and its place; `None` where it was not measured: straight segments have
     /// no jerk, and before a path there is nothing to measure.
     pub measured: Option<(f64, PathPlace)>,
-    /// What is certain of the largest amount, where last digits of a program can make a part of it; `None` where the
-    /// numbers have all digits.
-    pub certain: Option<f64>,
+    /// The largest amount that is certain and its place, where last digits of a program can make a part of it; `None`
+    /// where the numbers have all digits.
+    pub certain: Option<(f64, PathPlace)>,
 }
 
 /// The highest speed of the spindle at which the cut holds all limits.
@@ -88,12 +88,16 @@ impl LimitFigure {
         }
     }
 
-    /// Whether the limit holds, as far as the amount is certain; `None` where nothing was measured.
+    /// The amount that decides, and its place: what is certain, where that is known.
+    pub fn decisive(&self) -> Option<(f64, PathPlace)> {
+        self.measured
+            .map(|measured| self.certain.unwrap_or(measured))
+    }
+
+    /// Whether the limit holds; `None` where nothing was measured.
     pub fn holds(&self) -> Option<bool> {
-        let amount = self
-            .measured
-            .map(|(amount, _)| self.certain.unwrap_or(amount));
-        amount.map(|amount| within(amount, self.limit.value))
+        self.decisive()
+            .map(|(amount, _)| within(amount, self.limit.value))
     }
 
     /// Whether the limit holds only because last digits can have made what is above it.
@@ -117,6 +121,9 @@ struct FileLimit {
     #[serde(flatten)]
     amounts: BTreeMap<String, Option<f64>>,
     at: Option<PathPlace>,
+    /// Where the certain amount is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    certain_at: Option<PathPlace>,
     holds: Option<bool>,
 }
 
@@ -125,7 +132,7 @@ impl Serialize for LimitFigure {
         let (suffix, per) = unit_of(&self.limit);
         let amount = self.measured.map(|(amount, _)| amount);
         let amounts = [("limit", Some(self.limit.value)), ("measured", amount)];
-        let certain = self.certain.map(|amount| ("certain", Some(amount)));
+        let certain = self.certain.map(|(amount, _)| ("certain", Some(amount)));
         let entry = |(name, amount): (&str, Option<f64>)| {
             let amount = amount.map(|amount| unit::rounded(amount * per));
             let amount = amount.filter(|amount| amount.is_finite());
@@ -135,6 +142,7 @@ impl Serialize for LimitFigure {
             limit: self.limit.key(),
             amounts: amounts.into_iter().chain(certain).map(entry).collect(),
             at: self.measured.map(|(_, at)| at),
+            certain_at: self.certain.map(|(_, at)| at),
             holds: self.holds(),
         }
         .serialize(to)
@@ -157,10 +165,11 @@ impl<'de> Deserialize<'de> for LimitFigure {
         };
         let value = amount("limit").unwrap_or(f64::NAN);
         let measured = amount("measured").unwrap_or(f64::NAN);
+        let certain = amount("certain").unwrap_or(f64::NAN);
         Ok(Self {
             limit: Limit { value, ..unvalued },
             measured: limit.at.map(|at| (measured, at)),
-            certain: amount("certain"),
+            certain: limit.certain_at.map(|at| (certain, at)),
         })
     }
 }
@@ -238,6 +247,31 @@ mod tests {
         let text = serde_json::to_string(&unmeasured).unwrap();
         let read: LimitFigure = serde_json::from_str(&text).unwrap();
         assert_eq!((read.holds(), read.measured), (None, None));
+    }
+
+    #[test]
+    fn what_is_certain_decides_and_has_its_own_place_in_a_file() {
+        let measured = figure(Axis::X, Derivative::Jerk, 60.0, 156.0);
+        assert_eq!(measured.holds(), Some(false));
+        let at = PathPlace { c: DEG, x: 2.5 };
+        let of = |certain: f64| LimitFigure {
+            certain: Some((certain, at)),
+            ..measured
+        };
+        let states = [of(52.0), of(80.0)].map(|one| (one.holds(), one.holds_without_digits()));
+        assert_eq!(states, [(Some(true), true), (Some(false), false)]);
+        assert_eq!(of(80.0).decisive(), Some((80.0, at)));
+        let calm = LimitFigure {
+            measured: Some((50.0, at)),
+            ..of(40.0)
+        };
+        assert!(!calm.holds_without_digits());
+        let text = serde_json::to_string(&of(52.0)).unwrap();
+        let expected = r#"{"limit":"x_jerk","certain_mm_per_s3":52.0,"limit_mm_per_s3":60.0,"measured_mm_per_s3":156.0,"at":{"c_deg":90.0,"x_mm":1.25},"certain_at":{"c_deg":1.0,"x_mm":2.5},"holds":true}"#;
+        assert_eq!(text, expected);
+        let read: LimitFigure = serde_json::from_str(&text).unwrap();
+        assert_eq!(serde_json::to_string(&read).unwrap(), text);
+        assert_eq!(read, of(52.0));
     }
 
     #[test]

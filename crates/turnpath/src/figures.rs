@@ -270,7 +270,7 @@ fn limits(
     let figure = figures.map(|figure| LimitFigure {
         limit: figure.limit,
         measured: figure.peak.map(|peak| (peak.amount, peak_place(&peak))),
-        certain: figure.certain,
+        certain: figure.certain.map(|peak| (peak.amount, peak_place(&peak))),
     });
     figure.collect()
 }

@@ -1,5 +1,6 @@
 //! The file that is measured: which kind it is, and how it is read.
 
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use turnpath_core::DEG;
@@ -72,20 +73,18 @@ impl SourceFile {
     /// digits of a double.
     pub fn roundings(&self) -> Option<[Rounding; 2]> {
         let Layout { format, .. } = self.program?;
-        let digits = self.half_digits();
-        let of_straight = format.shape() == SegmentShape::Linear;
+        let digit = one_in(format.position_decimals);
         let rounding = |in_lead: bool| {
-            let [c, x, z] = format.position_steps(in_lead).map(|steps| steps as f64);
+            let [c, x, z] = format.position_rounding(in_lead);
             Rounding {
-                position: x.max(z) * digits.position,
-                angle: c * digits.angle,
-                velocity: if of_straight { 0.0 } else { digits.velocity },
-                angular_velocity: if of_straight {
-                    0.0
-                } else {
-                    digits.angular_velocity
+                digits: HalfDigits {
+                    position: x.max(z) * digit,
+                    angle: c * digit * DEG,
+                    ..self.half_digits()
                 },
-                part: format.held_part(),
+                part: format.held_part().unwrap_or(0.0),
+                largest_angle: if format.c_wrapped { TAU } else { f64::INFINITY },
+                z_above: format.z_above,
             }
         };
         Some([rounding(false), rounding(true)])
@@ -115,4 +114,82 @@ impl SourceFile {
 /// The last one of so many decimals.
 fn one_in(decimals: u32) -> f64 {
     1.0 / 10u64.pow(decimals) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RECIPE: &str = include_str!("../../../docs/recipes/astigmatic-5mm.toml");
+
+    /// The roundings of a program in the cut and in leads, with these settings of Turbo PMAC or LinuxCNC.
+    fn roundings(file: &str, sets: &[&str]) -> [Rounding; 2] {
+        let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+        let recipe = Recipe::parse(RECIPE, "recipe.toml", &sets).unwrap();
+        let file = SourceFile::new(Path::new(file), &recipe, true).unwrap();
+        file.roundings().unwrap()
+    }
+
+    #[track_caller]
+    fn assert_near(found: f64, wanted: f64) {
+        assert!((found / wanted - 1.0).abs() <= 1e-12, "{found} {wanted}");
+    }
+
+    #[test]
+    fn numbers_of_turbo_pmac_have_half_a_digit_and_35_bits() {
+        let [cut, leads] = roundings("a.pmc", &[]);
+        assert_eq!(cut, leads);
+        assert_near(cut.digits.position, 0.5e-7);
+        assert_near(cut.digits.angle, 0.5e-7 * DEG);
+        assert_near(cut.digits.velocity, 0.5e-7);
+        assert_near(cut.digits.angular_velocity, 0.5e-7 * DEG);
+        assert_near(cut.part, 2.91038304567337e-11);
+        assert_eq!((cut.largest_angle, cut.z_above), (f64::INFINITY, 1.0));
+        // Per minute, velocities have a decimal less than positions.
+        let [cut, _] = roundings(
+            "a.pmc",
+            &[
+                "output.pmac-pvt.position_decimals=5",
+                "output.pmac-pvt.velocity_per=min",
+                "output.pmac-pvt.c_wrap=0-360",
+            ],
+        );
+        assert_near(cut.digits.position, 0.5e-5);
+        assert_near(cut.digits.velocity, 0.5e-4 / 60.0);
+        assert_near(cut.digits.angular_velocity, 0.5e-4 / 60.0 * DEG);
+        assert_eq!(cut.largest_angle, TAU);
+        let [cut, _] = roundings("a.pmc", &["output.pmac-pvt.positioning=incremental"]);
+        assert_eq!(cut.part, 0.0);
+    }
+
+    /// In the cut X and Z are multiples of two digits. In leads they are of as many as the slowest motion needs, and
+    /// Z may have been lifted by two of those steps.
+    #[test]
+    fn numbers_of_linuxcnc_have_half_a_step() {
+        let file = "a.ngc";
+        let [cut, leads] = roundings(file, &[]);
+        assert_near(cut.digits.position, 1e-7);
+        assert_near(cut.digits.angle, 0.5e-7 * DEG);
+        assert_eq!(cut.part, 0.0);
+        let recipe = Recipe::parse(RECIPE, "recipe.toml", &[]).unwrap();
+        let format = SourceFile::new(Path::new(file), &recipe, true).unwrap();
+        let slowest = format
+            .program
+            .unwrap()
+            .format
+            .chords
+            .unwrap()
+            .slowest
+            .unwrap();
+        let step = 1e-7 * slowest.lead_steps[2] as f64;
+        assert!(step > 1e-6, "{step}");
+        assert_near(leads.digits.position, 2.5 * step);
+    }
+
+    #[test]
+    fn a_table_has_all_digits() {
+        let recipe = Recipe::parse(RECIPE, "recipe.toml", &[]).unwrap();
+        let table = SourceFile::new(Path::new("toolpath.csv"), &recipe, true).unwrap();
+        assert_eq!(table.roundings(), None);
+    }
 }

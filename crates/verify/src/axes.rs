@@ -23,7 +23,7 @@ pub struct Peak {
 
 impl Peak {
     /// An amount at the position `s` of a segment, 0 to 1.
-    fn on(segment: &Segment, s: f64, amount: f64) -> Self {
+    pub(crate) fn on(segment: &Segment, s: f64, amount: f64) -> Self {
         Self {
             amount,
             at_c: segment.c.value(s),
@@ -39,7 +39,7 @@ impl Peak {
     }
 
     /// The larger of the two; `self` if they are equal.
-    fn or(self, next: Self) -> Self {
+    pub(crate) fn or(self, next: Self) -> Self {
         if next.amount > self.amount {
             next
         } else {

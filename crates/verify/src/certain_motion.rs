@@ -7,36 +7,49 @@
 use turnpath_core::toolpath::{Cubic, PathBlock, Section, Segment, SegmentShape};
 use turnpath_core::{Axis, Derivative};
 
+use crate::axes::Peak;
 use crate::axis_terms::AxisTerm;
+use crate::comparison::HalfDigits;
 
 /// By how much numbers of a path may lie beside those that were rounded.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rounding {
-    /// Of X and Z, mm.
-    pub position: f64,
-    /// Of C, rad.
-    pub angle: f64,
-    /// Of the velocities of X and Z, mm/s. Straight lines have none.
-    pub velocity: f64,
-    /// Of the velocity of C, rad/s.
-    pub angular_velocity: f64,
+    /// Of positions and velocities. Straight lines have no velocities, and steps of time are exact.
+    pub digits: HalfDigits,
     /// The part of a position that is rounded besides: that of a controller that holds few bits.
     pub part: f64,
+    /// The largest angle that the controller holds, rad; infinite where C is not wrapped.
+    pub largest_angle: f64,
+    /// Z of the path less Z of the program, mm.
+    pub z_above: f64,
+}
+
+impl Default for Rounding {
+    /// All digits of a double.
+    fn default() -> Self {
+        Self {
+            digits: HalfDigits::default(),
+            part: 0.0,
+            largest_angle: f64::INFINITY,
+            z_above: 0.0,
+        }
+    }
 }
 
 impl Rounding {
-    /// That of the positions and of the velocities of an axis.
-    fn of(&self, axis: Axis) -> [f64; 2] {
-        match axis {
-            Axis::C => [self.angle, self.angular_velocity],
-            Axis::X | Axis::Z => [self.position, self.velocity],
-        }
-    }
-
     /// The most that rounding can make of the position of an axis at either end of a segment.
     fn of_positions(&self, axis: Axis, played: &Cubic) -> f64 {
-        let size = played.value(0.0).abs().max(played.value(1.0).abs());
-        self.of(axis)[0] + self.part * size
+        let held = |position: f64| match axis {
+            Axis::C => position.abs().min(self.largest_angle),
+            Axis::X => position.abs(),
+            Axis::Z => (position - self.z_above).abs(),
+        };
+        let size = held(played.value(0.0)).max(held(played.value(1.0)));
+        let digits = match axis {
+            Axis::C => self.digits.angle,
+            Axis::X | Axis::Z => self.digits.position,
+        };
+        digits + self.part * size
     }
 
     /// The most that rounding can make of the velocity, acceleration and jerk of a cubic. With p and v the rounding
@@ -44,7 +57,10 @@ impl Rounding {
     /// form of a cubic.
     fn of_cubic(&self, axis: Axis, cubic: &Cubic, duration: f64) -> [f64; 3] {
         let rate = self.of_positions(axis, cubic) / duration;
-        let [_, velocity] = self.of(axis);
+        let velocity = match axis {
+            Axis::C => self.digits.angular_velocity,
+            Axis::X | Axis::Z => self.digits.velocity,
+        };
         let first = 3.0 * rate + velocity;
         let second = (12.0 * rate + 6.0 * velocity) / duration;
         [first, second, 2.0 * second / duration]
@@ -60,23 +76,29 @@ impl Rounding {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CertainMotion {
     /// By axis, and by derivative.
-    largest: [[f64; Derivative::ALL.len()]; Axis::ALL.len()],
+    largest: [[Peak; Derivative::ALL.len()]; Axis::ALL.len()],
 }
 
 impl CertainMotion {
-    /// The largest amount of a derivative.
-    pub fn amount(&self, axis: Axis, derivative: Derivative) -> f64 {
+    /// The largest amount of a derivative, and the middle or the end of its segment.
+    pub fn peak(&self, axis: Axis, derivative: Derivative) -> Peak {
         self.largest[axis as usize][derivative as usize]
     }
 
-    /// Rises to what is certain of an amount. Of a segment that takes no time everything is.
-    fn rise(&mut self, axis: Axis, derivative: Derivative, amount: f64, rounding: f64) {
+    /// Rises to what is certain of an amount at a place.
+    fn rise(&mut self, (axis, derivative): (Axis, Derivative), found: Peak, rounding: f64) {
         let certain = match rounding.is_finite() {
-            true => amount - rounding,
-            false => amount,
+            true => found.amount - rounding,
+            // Of a segment that takes no time everything is certain.
+            false => found.amount,
         };
         let largest = &mut self.largest[axis as usize][derivative as usize];
-        *largest = largest.max(certain);
+        if certain > largest.amount {
+            *largest = Peak {
+                amount: certain,
+                ..found
+            };
+        }
     }
 
     fn include_cubic(&mut self, segment: &Segment, rounding: &Rounding) {
@@ -84,20 +106,20 @@ impl CertainMotion {
             let (cubic, duration) = (played(segment, axis), segment.duration);
             let term = AxisTerm::of(cubic, duration);
             let amounts = [term.velocity, term.acceleration, term.jerk];
-            let rounding = rounding.of_cubic(axis, cubic, duration);
-            for (derivative, (amount, rounding)) in Derivative::ALL
-                .into_iter()
-                .zip(amounts.into_iter().zip(rounding))
-            {
-                self.rise(axis, derivative, amount, rounding);
+            let roundings = rounding.of_cubic(axis, cubic, duration);
+            let each = amounts.into_iter().zip(roundings);
+            for (derivative, (amount, rounding)) in Derivative::ALL.into_iter().zip(each) {
+                let found = Peak::on(segment, 0.5, amount);
+                self.rise((axis, derivative), found, rounding);
             }
         }
     }
 
     fn include_line(&mut self, segment: &Segment, rounding: &Rounding) {
         for axis in Axis::ALL {
-            let (rate, rounding) = (rate(segment, axis), rounding.of_rate(axis, segment));
-            self.rise(axis, Derivative::Velocity, rate.abs(), rounding);
+            let found = Peak::on(segment, 0.5, rate(segment, axis).abs());
+            let rounding = rounding.of_rate(axis, segment);
+            self.rise((axis, Derivative::Velocity), found, rounding);
         }
     }
 
@@ -106,20 +128,16 @@ impl CertainMotion {
         let blend = 0.5 * (before.duration + after.duration);
         for axis in Axis::ALL {
             let change = (rate(after, axis) - rate(before, axis)).abs();
+            let found = Peak::on(after, 0.0, change / blend);
             let rounding = rounding.of_rate(axis, before) + rounding.of_rate(axis, after);
-            self.rise(
-                axis,
-                Derivative::Acceleration,
-                change / blend,
-                rounding / blend,
-            );
+            self.rise((axis, Derivative::Acceleration), found, rounding / blend);
         }
     }
 
     fn append(&mut self, next: &Self) {
         let all = self.largest.iter_mut().flatten();
         for (largest, next) in all.zip(next.largest.iter().flatten()) {
-            *largest = largest.max(*next);
+            *largest = largest.or(*next);
         }
     }
 }
@@ -145,6 +163,23 @@ pub struct CertainBlock {
     motion: CertainMotion,
     /// Its first and its last segment, if they are straight.
     outer: Option<[Segment; 2]>,
+    /// Whether it has more digits than it was said to have.
+    has_more_digits: bool,
+}
+
+impl CertainBlock {
+    /// Goes on with a straight segment.
+    fn follow_line(&mut self, segment: Segment, rounding: &Rounding) {
+        self.motion.include_line(&segment, rounding);
+        let first = match &self.outer {
+            Some([first, before]) => {
+                self.motion.include_blend([before, &segment], rounding);
+                *first
+            }
+            None => segment,
+        };
+        self.outer = Some([first, segment]);
+    }
 }
 
 /// Measures what is certain of a path. Blocks can be measured in parallel, and are appended in their order.
@@ -156,7 +191,11 @@ pub struct CertainMeter {
     leads: CertainMotion,
     /// The last straight segment so far, and its section.
     last: Option<(Segment, Section)>,
+    has_more_digits: bool,
 }
+
+/// How far, in last digits, a number may lie beside a whole number of them: by the rounding of doubles.
+const OFF_DIGIT: f64 = 1e-2;
 
 impl CertainMeter {
     /// Nothing measured yet. Numbers of the cut and of leads may be rounded otherwise.
@@ -167,6 +206,7 @@ impl CertainMeter {
             cut: CertainMotion::default(),
             leads: CertainMotion::default(),
             last: None,
+            has_more_digits: false,
         }
     }
 
@@ -184,18 +224,29 @@ impl CertainMeter {
             section,
             motion: CertainMotion::default(),
             outer: None,
+            has_more_digits: points.x.iter().any(|x| self.is_off_digits(*x)),
         };
         for segment in points.segments() {
             match points.shape {
                 SegmentShape::Cubic => block.motion.include_cubic(&segment, rounding),
-                SegmentShape::Linear => block.include_line(segment, rounding),
+                SegmentShape::Linear => block.follow_line(segment, rounding),
             }
         }
         block
     }
 
+    /// Whether X is no whole number of last digits of the cut.
+    fn is_off_digits(&self, x: f64) -> bool {
+        let Rounding { digits, part, .. } = &self.of_cut;
+        let digit = 2.0 * digits.position;
+        let number = x / digit;
+        let rounding = part * x.abs() / digit + 2.0 * f64::EPSILON * number.abs();
+        (number - number.round()).abs() > OFF_DIGIT + rounding
+    }
+
     /// Appends the next block. The blend from a lead into the cut, or out of it, belongs to the lead.
     pub fn append(&mut self, next: &CertainBlock) {
+        self.has_more_digits |= next.has_more_digits;
         if let Some([first, last]) = next.outer {
             if let Some((before, section)) = self.last {
                 let of_blend = match next.section {
@@ -218,28 +269,15 @@ impl CertainMeter {
         }
     }
 
-    /// What is certain of the cut.
-    pub fn cut(&self) -> &CertainMotion {
-        &self.cut
+    /// What is certain of the cut; `None` if the path has more digits than it was said to have, since then nobody
+    /// knows how it was rounded.
+    pub fn cut(&self) -> Option<&CertainMotion> {
+        (!self.has_more_digits).then_some(&self.cut)
     }
 
-    /// What is certain of the leads.
-    pub fn leads(&self) -> &CertainMotion {
-        &self.leads
-    }
-}
-
-impl CertainBlock {
-    fn include_line(&mut self, segment: Segment, rounding: &Rounding) {
-        self.motion.include_line(&segment, rounding);
-        let first = match &self.outer {
-            Some([first, before]) => {
-                self.motion.include_blend([before, &segment], rounding);
-                *first
-            }
-            None => segment,
-        };
-        self.outer = Some([first, segment]);
+    /// The same of the leads.
+    pub fn leads(&self) -> Option<&CertainMotion> {
+        (!self.has_more_digits).then_some(&self.leads)
     }
 }
 
@@ -251,95 +289,123 @@ mod tests {
     use super::*;
     use crate::AxesMotion;
 
-    /// Half of a last digit of seven decimals, of each number.
-    const ROUNDING: Rounding = Rounding {
+    /// Half a last digit of each kind of number, all of them different.
+    const DIGITS: HalfDigits = HalfDigits {
+        time: 0.0,
         position: 0.5e-7,
-        angle: 0.5e-7,
-        velocity: 0.5e-7,
-        angular_velocity: 0.5e-7,
-        part: 0.0,
+        angle: 0.25e-7,
+        velocity: 2e-7,
+        angular_velocity: 3e-7,
     };
 
-    /// A wave of Z and a slow X, with points about a millisecond apart and each number as `kept`.
-    fn path(shape: SegmentShape, kept: impl Fn(f64) -> f64) -> PathBlock {
+    fn rounding() -> Rounding {
+        Rounding {
+            digits: DIGITS,
+            ..Rounding::default()
+        }
+    }
+
+    /// A wave of Z and a slow X, with points about a millisecond apart, after a change.
+    fn path(shape: SegmentShape, change: impl Fn(ControlPoint) -> ControlPoint) -> PathBlock {
         let mut t = 0.0;
         let points = (0..300).map(|i| {
             t += 1e-3 * (1.0 + 0.3 * Scalar::sin(f64::from(i)));
             let (sine, cosine) = Scalar::sin_cos(40.0 * t);
-            ControlPoint {
+            change(ControlPoint {
                 t,
-                c: kept(9.0 * t),
-                x: kept(20.0 - 0.2 * t - 1e-4 * sine),
-                z: kept(0.5 * sine),
-                vc: kept(9.0),
-                vx: kept(-0.2 - 4e-3 * cosine),
-                vz: kept(20.0 * cosine),
-            }
+                c: 9.0 * t,
+                x: 20.0 - 0.2 * t - 1e-4 * sine,
+                z: 0.5 * sine,
+                vc: 9.0,
+                vx: -0.2 - 4e-3 * cosine,
+                vz: 20.0 * cosine,
+            })
         });
         PathBlock::of(shape, points)
     }
 
-    fn rounded(value: f64) -> f64 {
-        (value * 1e7).round() / 1e7
+    fn exact(shape: SegmentShape) -> PathBlock {
+        path(shape, |point| point)
+    }
+
+    /// The path with numbers of [`DIGITS`].
+    fn rounded(shape: SegmentShape) -> PathBlock {
+        let kept = |value: f64, half: f64| (value / (2.0 * half)).round() * (2.0 * half);
+        path(shape, |point| ControlPoint {
+            c: kept(point.c, DIGITS.angle),
+            x: kept(point.x, DIGITS.position),
+            z: kept(point.z, DIGITS.position),
+            vc: kept(point.vc, DIGITS.angular_velocity),
+            vx: kept(point.vx, DIGITS.velocity),
+            vz: kept(point.vz, DIGITS.velocity),
+            ..point
+        })
     }
 
     fn certain(points: &PathBlock, rounding: Rounding) -> CertainMotion {
         let mut meter = CertainMeter::new(rounding, Rounding::default());
         meter.append(&meter.measure(Section::Cutting, points));
-        *meter.cut()
+        meter.cut
     }
 
-    fn peaks(points: &PathBlock) -> impl Iterator<Item = (Axis, Derivative, f64)> + use<> {
+    fn peaks(points: &PathBlock) -> impl Iterator<Item = (Axis, Derivative, Peak)> + use<> {
         let motion = AxesMotion::of(points);
         Axis::ALL.into_iter().flat_map(move |axis| {
             Derivative::ALL.into_iter().map(move |derivative| {
                 let peak = motion.peak(axis, derivative);
-                (axis, derivative, peak.map_or(0.0, |peak| peak.amount))
+                (axis, derivative, peak.unwrap_or_default())
             })
         })
+    }
+
+    /// Nothing above the motion of the path itself is certain of its file.
+    #[track_caller]
+    fn assert_below(certain: &CertainMotion, path: &PathBlock) {
+        for (axis, derivative, peak) in peaks(path) {
+            let found = certain.peak(axis, derivative).amount;
+            let most = peak.amount * (1.0 + 1e-9);
+            assert!(found <= most, "{axis:?} {derivative:?}: {found} of {most}");
+        }
+    }
+
+    /// Nearly all of the speed of Z is certain.
+    #[track_caller]
+    fn assert_fast_z(certain: &CertainMotion) {
+        let speed = certain.peak(Axis::Z, Derivative::Velocity).amount;
+        assert!((speed - 20.0).abs() < 1e-2, "{speed}");
     }
 
     #[test]
     fn without_rounding_everything_is_certain() {
         for shape in [SegmentShape::Cubic, SegmentShape::Linear] {
-            let points = path(shape, |value| value);
+            let points = exact(shape);
             let certain = certain(&points, Rounding::default());
             for (axis, derivative, peak) in peaks(&points) {
-                assert_eq!(
-                    certain.amount(axis, derivative),
-                    peak,
+                let found = certain.peak(axis, derivative);
+                assert_eq!(found.amount, peak.amount, "{axis:?} {derivative:?}");
+                // Within its segment, which is some millisecond long.
+                assert!(
+                    (found.at_c - peak.at_c).abs() < 0.02,
                     "{axis:?} {derivative:?}"
                 );
             }
         }
     }
 
-    /// The rounded path has jerks of X that the path has not, and what is certain of them lies below those of the
-    /// path. Where the path's own are large, nearly all of them is certain.
     #[test]
     fn what_is_certain_of_a_rounded_path_is_not_above_the_path_itself() {
-        for shape in [SegmentShape::Cubic, SegmentShape::Linear] {
-            let (exact, file) = (path(shape, |value| value), path(shape, rounded));
-            let certain = certain(&file, ROUNDING);
-            for (axis, derivative, peak) in peaks(&exact) {
-                let found = certain.amount(axis, derivative);
-                assert!(
-                    found <= peak * (1.0 + 1e-9),
-                    "{axis:?} {derivative:?}: {found} {peak}"
-                );
-            }
-            let of_file = AxesMotion::of(&file);
-            let derivative = match shape {
-                SegmentShape::Cubic => Derivative::Jerk,
-                SegmentShape::Linear => Derivative::Acceleration,
-            };
-            let rough = of_file.peak(Axis::X, derivative).unwrap().amount;
-            let (_, _, smooth) = peaks(&exact)
-                .find(|(axis, of, _)| (*axis, *of) == (Axis::X, derivative))
-                .unwrap();
-            assert!(rough > 1.2 * smooth, "{rough} {smooth}");
-            let speed = certain.amount(Axis::Z, Derivative::Velocity);
-            assert!((speed - 20.0).abs() < 1e-2, "{speed}");
+        for (shape, derivative) in [
+            (SegmentShape::Cubic, Derivative::Jerk),
+            (SegmentShape::Linear, Derivative::Acceleration),
+        ] {
+            let file = rounded(shape);
+            let certain = certain(&file, rounding());
+            assert_below(&certain, &exact(shape));
+            assert_fast_z(&certain);
+            // The file itself is rougher than the path.
+            let of_x = |points: &PathBlock| AxesMotion::of(points).peak(Axis::X, derivative);
+            let [rough, smooth] = [of_x(&file), of_x(&exact(shape))].map(Option::unwrap);
+            assert!(rough.amount > 1.2 * smooth.amount, "{rough:?} {smooth:?}");
         }
     }
 
@@ -347,72 +413,108 @@ mod tests {
     /// with half the rounding.
     #[test]
     fn rounding_at_its_worst_is_no_motion() {
-        let Rounding {
-            position: p,
-            velocity: v,
-            ..
-        } = ROUNDING;
-        let point = |t: f64, z: f64, vz: f64| ControlPoint {
+        let point = |t: f64, of_positions: f64, of_velocities: f64| ControlPoint {
             t,
-            z,
-            vz,
-            ..ControlPoint::default()
+            c: of_positions * DIGITS.angle,
+            x: of_positions * DIGITS.position,
+            z: of_positions * DIGITS.position,
+            vc: of_velocities * DIGITS.angular_velocity,
+            vx: of_velocities * DIGITS.velocity,
+            vz: of_velocities * DIGITS.velocity,
         };
-        let half = Rounding {
-            position: 0.5 * p,
-            velocity: 0.5 * v,
-            ..ROUNDING
+        let half = HalfDigits {
+            time: 0.0,
+            position: 0.5 * DIGITS.position,
+            angle: 0.5 * DIGITS.angle,
+            velocity: 0.5 * DIGITS.velocity,
+            angular_velocity: 0.5 * DIGITS.angular_velocity,
         };
-        let cubic = [point(0.0, -p, -v), point(1e-3, p, -v)];
-        let line = [
-            point(0.0, p, 0.0),
-            point(1e-3, -p, 0.0),
-            point(2e-3, p, 0.0),
+        let cubic = [point(0.0, -1.0, -1.0), point(1e-3, 1.0, -1.0)];
+        let even = [
+            point(0.0, 1.0, 0.0),
+            point(1e-3, -1.0, 0.0),
+            point(3e-3, 1.0, 0.0),
         ];
         for (shape, points, derivative) in [
             (SegmentShape::Cubic, &cubic[..], Derivative::Acceleration),
             (SegmentShape::Cubic, &cubic[..], Derivative::Jerk),
-            (SegmentShape::Linear, &line[..], Derivative::Velocity),
-            (SegmentShape::Linear, &line[..], Derivative::Acceleration),
+            (SegmentShape::Linear, &even[..], Derivative::Velocity),
+            (SegmentShape::Linear, &even[..], Derivative::Acceleration),
         ] {
             let block = PathBlock::of(shape, points.iter().copied());
-            let peak = AxesMotion::of(&block).peak(Axis::Z, derivative).unwrap();
-            let [all, of_half] = [ROUNDING, half]
-                .map(|rounding| certain(&block, rounding).amount(Axis::Z, derivative));
-            assert!(all <= 1e-9 * peak.amount, "{derivative:?}: {all}");
-            assert!(
-                (of_half / peak.amount - 0.5).abs() < 1e-9,
-                "{derivative:?}: {of_half}"
-            );
+            for axis in Axis::ALL {
+                let peak = AxesMotion::of(&block).peak(axis, derivative).unwrap();
+                let [all, of_half] = [DIGITS, half].map(|digits| {
+                    let rounding = Rounding {
+                        digits,
+                        ..Rounding::default()
+                    };
+                    certain(&block, rounding).peak(axis, derivative).amount / peak.amount
+                });
+                assert!(all <= 1e-9, "{axis:?} {derivative:?}: {all}");
+                assert!(
+                    (of_half - 0.5).abs() < 1e-9,
+                    "{axis:?} {derivative:?}: {of_half}"
+                );
+            }
         }
+        // 3p/h + v is a little more than the velocity of any place of a cubic can be.
+        let block = PathBlock::of(SegmentShape::Cubic, cubic);
+        let velocity = certain(&block, rounding()).peak(Axis::X, Derivative::Velocity);
+        assert_eq!(velocity.amount, 0.0);
     }
 
-    /// A controller of 24 bits cuts a place of 20 mm by up to 1.2 nm.
+    /// A controller of 24 bits cuts a place of 20 mm by up to 1.2 µm. Its Z is 30 mm below that of the path.
     #[test]
     fn few_bits_round_large_places_more() {
-        let few_bits = |value: f64| f64::from(value as f32);
-        let file = path(SegmentShape::Cubic, few_bits);
-        let part = 1.0 / f64::from(1 << 24);
+        let held = |value: f64| f64::from(value as f32);
+        let file = path(SegmentShape::Cubic, |point| ControlPoint {
+            c: held(point.c),
+            x: held(point.x),
+            z: held(point.z - 30.0) + 30.0,
+            ..point
+        });
         let of_bits = Rounding {
-            velocity: 20.0 * part,
-            angular_velocity: 20.0 * part,
-            part,
+            part: 1.0 / f64::from(1 << 24),
+            z_above: 30.0,
             ..Rounding::default()
         };
         let certain = certain(&file, of_bits);
-        for (axis, derivative, peak) in peaks(&path(SegmentShape::Cubic, |value| value)) {
-            let found = certain.amount(axis, derivative);
-            assert!(
-                found <= peak * (1.0 + 1e-9),
-                "{axis:?} {derivative:?}: {found} {peak}"
-            );
-        }
+        let path = exact(SegmentShape::Cubic);
+        assert_below(&certain, &path);
+        assert_fast_z(&certain);
+        let jerk = |points: &PathBlock| AxesMotion::of(points).peak(Axis::Z, Derivative::Jerk);
+        let [rough, smooth] = [jerk(&file), jerk(&path)].map(Option::unwrap);
+        assert!(rough.amount > 2.0 * smooth.amount, "{rough:?} {smooth:?}");
+    }
+
+    /// A controller that holds C within a turn rounds it no more after a thousand turns.
+    #[test]
+    fn a_wrapped_angle_is_rounded_by_its_part_of_a_turn() {
+        let far = path(SegmentShape::Cubic, |point| ControlPoint {
+            c: point.c + 1e4,
+            vc: 9.0 + Scalar::sin(40.0 * point.t),
+            ..point
+        });
+        let of = |largest_angle: f64| {
+            let rounding = Rounding {
+                part: 1e-6,
+                largest_angle,
+                ..Rounding::default()
+            };
+            certain(&far, rounding)
+                .peak(Axis::C, Derivative::Acceleration)
+                .amount
+        };
+        let measured = AxesMotion::of(&far).c.acceleration.amount;
+        assert_eq!(of(f64::INFINITY), 0.0);
+        assert!((of(std::f64::consts::TAU) - measured).abs() < 0.2 * measured);
     }
 
     /// A blend at a border counts, and one with a lead belongs to the lead.
     #[test]
     fn blocks_have_the_blends_of_the_whole_path() {
-        let mut points = path(SegmentShape::Linear, |value| value);
+        let mut points = exact(SegmentShape::Linear);
         // Corners at the borders of the blocks below.
         for (place, moved) in [(100, 1e-3), (200, 2e-3)] {
             points.z[place] += moved;
@@ -427,23 +529,53 @@ mod tests {
         for part in &parts {
             one.append(&one.measure(Section::Cutting, part));
         }
-        assert_eq!(*one.cut(), certain(&points, Rounding::default()));
+        assert_eq!(one.cut, certain(&points, Rounding::default()));
 
         let mut other = meter();
         let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
         for (part, section) in parts.iter().zip(sections) {
             other.append(&other.measure(section, part));
         }
-        let of = |motion: &CertainMotion| motion.amount(Axis::Z, Derivative::Acceleration);
-        assert_eq!(of(other.leads()), of(one.cut()));
-        assert!(of(other.cut()) < 0.5 * of(one.cut()));
+        let of = |motion: &CertainMotion| motion.peak(Axis::Z, Derivative::Acceleration);
+        assert_eq!(of(&other.leads), of(&one.cut));
+        assert!(of(&other.cut).amount < 0.5 * of(&one.cut).amount);
+    }
+
+    #[test]
+    fn leads_have_a_rounding_of_their_own() {
+        let mut meter = CertainMeter::new(Rounding::default(), rounding());
+        meter.append(&meter.measure(Section::LeadOut, &rounded(SegmentShape::Cubic)));
+        assert_below(meter.leads().unwrap(), &exact(SegmentShape::Cubic));
+        assert_eq!(meter.cut().unwrap(), &CertainMotion::default());
     }
 
     #[test]
     fn a_segment_that_takes_no_time_is_not_excused() {
-        let mut points = path(SegmentShape::Cubic, rounded);
+        let mut points = rounded(SegmentShape::Cubic);
         points.t[7] = points.t[6];
-        let certain = certain(&points, ROUNDING);
-        assert_eq!(certain.amount(Axis::Z, Derivative::Jerk), f64::INFINITY);
+        let jerk = certain(&points, rounding()).peak(Axis::Z, Derivative::Jerk);
+        assert_eq!(jerk.amount, f64::INFINITY);
+    }
+
+    /// Who says that a file has fewer digits than it has would be told that all its limits hold.
+    #[test]
+    fn a_path_with_more_digits_than_it_was_said_to_have_has_nothing_that_is_certain() {
+        let coarse = Rounding {
+            digits: HalfDigits {
+                position: 100.0 * DIGITS.position,
+                ..DIGITS
+            },
+            ..Rounding::default()
+        };
+        for (said, is_known) in [
+            (rounding(), true),
+            (coarse, false),
+            (Rounding::default(), true),
+        ] {
+            let mut meter = CertainMeter::new(said, said);
+            meter.append(&meter.measure(Section::Cutting, &rounded(SegmentShape::Cubic)));
+            assert_eq!(meter.cut().is_some(), is_known, "{said:?}");
+            assert_eq!(meter.leads().is_some(), is_known, "{said:?}");
+        }
     }
 }

@@ -19,7 +19,7 @@ pub struct LimitFigure {
     /// The largest amount; `None` where no such figure exists: the jerk of straight segments.
     pub peak: Option<Peak>,
     /// What is certain of it, where the path's numbers were rounded to last digits; `None` where they were not.
-    pub certain: Option<f64>,
+    pub certain: Option<Peak>,
 }
 
 /// The highest speed at which a path can be played.
@@ -36,8 +36,8 @@ pub struct HighestSpeed {
 impl LimitFigure {
     /// The largest amount over the limit, as far as it is certain; 0 where there is no figure.
     pub fn ratio(&self) -> f64 {
-        let amount = self.peak.map(|peak| self.certain.unwrap_or(peak.amount));
-        amount.map_or(0.0, |amount| amount / self.limit.value)
+        let peak = self.peak.map(|peak| self.certain.unwrap_or(peak));
+        peak.map_or(0.0, |peak| peak.amount / self.limit.value)
     }
 
     /// The factor by which the speed can grow until the limit is reached. The n-th derivative in
@@ -55,7 +55,7 @@ impl AxesMotion {
     pub fn against(&self, machine: &Machine, certain: Option<&CertainMotion>) -> Vec<LimitFigure> {
         let figure = |limit: Limit| {
             let peak = self.peak(limit.axis, limit.derivative);
-            let certain = certain.map(|motion| motion.amount(limit.axis, limit.derivative));
+            let certain = certain.map(|motion| motion.peak(limit.axis, limit.derivative));
             LimitFigure {
                 limit,
                 peak,

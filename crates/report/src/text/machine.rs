@@ -12,34 +12,44 @@ pub fn exceeded(limits: &[LimitFigure], of: &str) -> String {
 }
 
 fn exceeded_line(figure: &LimitFigure, of: &str) -> Option<String> {
-    let (amount, at) = figure.measured.filter(|_| figure.holds() == Some(false))?;
-    let limit = &figure.limit;
-    let (amount, most) = (
-        limit_amount(limit, amount),
-        limit_amount(limit, limit.value),
-    );
+    let (amount, at) = figure
+        .decisive()
+        .filter(|_| figure.holds() == Some(false))?;
+    let amount = amount_of_limit(figure, amount);
     let text = format!(
-        "{amount:>12} of {most:<11} EXCEEDED, at {}",
-        path_place(&at)
+        "{amount} EXCEEDED, at {}{}",
+        path_place(&at),
+        with_digits(figure)
     );
     // A label may be as long as its column, and an amount too.
     Some(line(&format!("{of}{} ", name(figure)), text))
 }
 
-/// The lines on limits above which last digits reach, each after the name of what was measured.
+/// The lines on limits that hold, and above which last digits reach, each after the name of what was measured.
 pub fn by_digits(limits: &[LimitFigure], of: &str) -> String {
-    let lines = limits
-        .iter()
-        .filter(|figure| figure.holds_without_digits())
-        .filter_map(|figure| {
-            let ((amount, _), certain) = figure.measured.zip(figure.certain)?;
-            let limit = &figure.limit;
-            let [amount, certain, most] =
-                [amount, certain, limit.value].map(|amount| limit_amount(limit, amount));
-            let text = format!("{certain:>12} of {most:<11} holds; {amount} with last digits");
-            Some(line(&format!("{of}{} ", name(figure)), text))
-        });
+    let figures = limits.iter().filter(|figure| figure.holds_without_digits());
+    let lines = figures.filter_map(|figure| {
+        let (amount, _) = figure.decisive()?;
+        let amount = amount_of_limit(figure, amount);
+        let text = format!("{amount} holds{}", with_digits(figure));
+        Some(line(&format!("{of}{} ", name(figure)), text))
+    });
     lines.collect()
+}
+
+/// An amount and its limit.
+fn amount_of_limit(figure: &LimitFigure, amount: f64) -> String {
+    let [amount, most] = [amount, figure.limit.value].map(|it| limit_amount(&figure.limit, it));
+    format!("{amount:>12} of {most:<11}")
+}
+
+/// What was measured, where last digits have a part in it.
+fn with_digits(figure: &LimitFigure) -> String {
+    let measured = figure.measured.filter(|_| figure.certain.is_some());
+    measured.map_or_else(String::new, |(amount, _)| {
+        let amount = limit_amount(&figure.limit, amount);
+        format!("; {amount} with last digits")
+    })
 }
 
 fn name(figure: &LimitFigure) -> String {
@@ -135,6 +145,26 @@ mod tests {
             line_of(Axis::X, Derivative::Acceleration, 1000.0, 1300.0),
             "  X acceleration    1.300 m/s² of 1.000 m/s²  EXCEEDED, at C = 90.00 deg, \
              X = 1.2500 mm\n"
+        );
+        let at = PathPlace { c: DEG, x: 2.5 };
+        let of = |certain: f64| LimitFigure {
+            limit: Limit {
+                axis: Axis::X,
+                derivative: Derivative::Jerk,
+                value: 60.0,
+            },
+            measured: Some((156.0, at)),
+            certain: Some((certain, at)),
+        };
+        let limits = [of(0.0), of(80.0)];
+        assert_eq!(
+            exceeded(&limits, ""),
+            "  X jerk           80.00 mm/s³ of 60.00 mm/s³ EXCEEDED, at C = 1.00 deg, X = 2.5000 mm; \
+             156.0 mm/s³ with last digits\n"
+        );
+        assert_eq!(
+            by_digits(&limits, ""),
+            "  X jerk               0 mm/s³ of 60.00 mm/s³ holds; 156.0 mm/s³ with last digits\n"
         );
         let rpm = unit::rpm::PER.recip();
         let text = line_of(Axis::C, Derivative::Velocity, 10.0 * rpm, 20.0 * rpm);

@@ -140,6 +140,7 @@ const METRE: f64 = 1e3;
 pub fn significant(value: f64) -> String {
     match value {
         v if !v.is_finite() => "no number".to_owned(),
+        0.0 => "0".to_owned(),
         v if !(1e-3..1e6).contains(&v) => format!("{v:.3e}"),
         v if v >= 1e3 => format!("{v:.0}"),
         v if v >= 1e2 => format!("{v:.1}"),
@@ -187,7 +188,7 @@ mod tests {
     #[test]
     fn numbers_keep_four_digits() {
         let shown = [0.0, 0.01234, 1.23456, 123.456, 12345.6, 1.5e7].map(significant);
-        let expected = ["0.000e0", "0.0123", "1.235", "123.5", "12346", "1.500e7"];
+        let expected = ["0", "0.0123", "1.235", "123.5", "12346", "1.500e7"];
         assert_eq!(shown, expected);
     }
 }

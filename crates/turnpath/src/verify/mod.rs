@@ -144,7 +144,7 @@ impl<'a> Target<'a> {
         let figures = meter.figures().map_err(failed)?;
         let lead = meters.lead.figures();
         let certain = meters.certain.as_ref();
-        let of_leads = certain.map(CertainMeter::leads);
+        let of_leads = certain.and_then(CertainMeter::leads);
         let lead = lead.map(|lead| figures::lead(lead, None, of_leads, recipe));
         let servo = meters.servo.as_ref().map(ServoMeter::figures);
         let form = meter.form().map_err(failed)?;
@@ -152,7 +152,7 @@ impl<'a> Target<'a> {
             path: &figures,
             machined: machined.as_ref(),
             form: form.as_ref(),
-            certain: certain.map(CertainMeter::cut),
+            certain: certain.and_then(CertainMeter::cut),
             servo,
         };
         let path = figures::path(recipe, &cut, lead);
