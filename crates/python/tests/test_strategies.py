@@ -1,5 +1,6 @@
 """Strategies in Python: what they give, and what a wrong one raises."""
 
+import inspect
 import threading
 import time
 import typing
@@ -292,8 +293,10 @@ def kinked(x, y, depth: turnpath.Length = "2 um"):
 
 def test_an_untraced_surface_says_why_and_has_its_error_told(part):
     part["surface"] = {"use": "kinked"}
-    with pytest.warns(turnpath.TraceWarning, match="it compares x or y"):
+    with pytest.warns(turnpath.TraceWarning, match="it compares x or y") as caught:
         result = turnpath.run(part, strategies=[kinked])
+    lines, first = inspect.getsourcelines(kinked.function)
+    assert (caught[0].filename, caught[0].lineno) == (__file__, first)
     fitted = [one for one in result.report["remarks"] if one["kind"] == "fitted_surface"]
     assert len(fitted) == 1 and 0 < fitted[0]["error_nm"] < 0.05 * 100
     assert "it compares x or y" in result.notes[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import inspect
+import warnings
 from pathlib import Path
 from typing import Any, Callable
 
@@ -11,6 +12,19 @@ from typing import Any, Callable
 def file_of(function: Callable[..., Any]) -> str:
     """The file of a function's source, or what stands for one where there is none."""
     return inspect.getsourcefile(function) or function.__code__.co_filename
+
+
+def warn_at(function: Callable[..., Any], text: str, category: type[Warning]) -> None:
+    """Warns at the line where a function begins: the call that finds out is one of turnpath's own."""
+    code = inspect.unwrap(function).__code__
+    warnings.warn_explicit(
+        text,
+        category,
+        filename=file_of(function),
+        lineno=code.co_firstlineno,
+        module=function.__module__,
+        registry=function.__globals__.setdefault("__warningregistry__", {}),
+    )
 
 
 def has_file(function: Callable[..., Any]) -> bool:

@@ -160,7 +160,7 @@ class Strategy:
             )
             if note not in session.notes:
                 session.notes.append(note)
-            warnings.warn(note, TraceWarning, stacklevel=2)
+            _source.warn_at(self.function, note, TraceWarning)
         extent, goal = self.options["extent"], self.options["fit_error"]
         half = half_width if extent is None else 0.5 * _turnpath.parse_quantity("length", extent)
         goal = error if goal is None else _turnpath.parse_quantity("length", goal)
