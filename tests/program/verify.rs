@@ -102,6 +102,64 @@ fn a_file_of_the_program_gives_the_figures_of_its_summary() {
 
 /// Where a hollow part slopes up to its rim all around, X ends inside of the rim that the contact
 /// reaches; on a crown beyond it.
+/// A nose of 1 mm fits lenses of 10 mm, so nothing is left between them, though the recipe would allow it.
+const LENSES: &str = r#"format = 1
+name = "Lenses"
+
+[part]
+aperture = "3 mm"
+
+[surface]
+use = "lenslet-array"
+layout = "hexagonal"
+pitch = "1.5 mm"
+radius = "10 mm"
+
+[tool]
+nose_radius = "1 mm"
+interference = "cut-what-fits"
+
+[tolerance]
+form = "300 nm"
+
+[spindle]
+speed = "60 rpm"
+
+[path]
+lead = false
+
+[feed]
+use = "atpg"
+
+[sampler]
+use = "equal-arc"
+spacing = "0.1 mm"
+
+[compensator]
+use = "z-direction"
+
+[velocity]
+use = "triangle-rotary"
+"#;
+
+#[test]
+fn a_nose_that_fits_everywhere_is_measured_as_in_its_run() {
+    let bench = made_of(LENSES);
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
+    let report = said.ends(0).json();
+    for pointer in [
+        "/form/pv_nm",
+        "/interpolation_error/max_nm",
+        "/residual/max_nm",
+        "/played_cusp/max_nm",
+        "/surface_error/pv_nm",
+    ] {
+        same(&report, &summary, pointer);
+    }
+    assert_eq!(report["unreached"], summary["unreached"]);
+}
+
 #[test]
 fn a_path_whose_contact_goes_to_the_rim_covers_it_wherever_x_is() {
     for radius in ["40 mm", "-40 mm"] {

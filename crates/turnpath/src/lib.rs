@@ -65,6 +65,7 @@ mod sinks;
 mod sizes;
 mod speed_steps;
 mod strategies;
+mod subject;
 mod summary;
 mod surface;
 mod surface_need;

@@ -22,6 +22,7 @@ use crate::meters::{PathMeters, measure};
 use crate::path_file::SourceFile;
 use crate::result_check::read_result;
 use crate::strategies;
+use crate::subject::subject;
 use crate::summary::{ABLATION, MOST_BYTES, PAGE, SUMMARY};
 use crate::surface::surface;
 
@@ -93,13 +94,7 @@ fn page_again(
     drawings.leave_result(&request.folder, &report)?;
     let files = DataFiles::default();
     let wanted = surface(recipe, catalogue, &files)?;
-    let compensator = strategies::compensator(recipe, catalogue, &files)?.strategy;
-    let subject = Subject {
-        surface: wanted.strategy.clone(),
-        part: recipe.part,
-        tool: recipe.tool,
-        compensates_nose: compensator.compensates_nose(),
-    };
+    let subject = subject((recipe, catalogue, &files), wanted.strategy.clone())?;
     let sketch = match path_file(&request.folder, &report, recipe, &subject)? {
         None => None,
         Some(file) => {

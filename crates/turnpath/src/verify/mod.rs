@@ -10,8 +10,8 @@ mod whole;
 
 use std::path::{Path, PathBuf};
 
-use turnpath_core::RadialRange;
 use turnpath_core::toolpath::SegmentShape;
+use turnpath_core::{Misfit, RadialRange};
 use turnpath_files::Draft;
 use turnpath_host::Catalogue;
 use turnpath_pipeline::{Observer, Stage};
@@ -32,6 +32,7 @@ use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
 use crate::result_check::result_check;
 use crate::strategies;
+use crate::subject::subject;
 use crate::surface::surface;
 
 use crate::path_file::SourceFile;
@@ -101,12 +102,7 @@ impl<'a> Target<'a> {
         let surface = surface(recipe, catalogue, &files)?.strategy;
         let compensator = strategies::compensator(recipe, catalogue, &files)?.strategy;
         let velocity = strategies::velocity(recipe, catalogue, &files)?.strategy;
-        let subject = Subject {
-            surface,
-            part: recipe.part,
-            tool: recipe.tool,
-            compensates_nose: compensator.compensates_nose(),
-        };
+        let subject = subject((recipe, catalogue, &files), surface)?;
         Ok(Self {
             recipe,
             catalogue,
@@ -246,10 +242,12 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// What the nose leaves standing; `None` unless it may leave something.
+    /// What the nose leaves standing; `None` unless the recipe asks for what fits of a nose.
     fn unreached(&self, touch: &FirstTouch) -> Result<Option<report::Unreached>, Error> {
         if !touch.leaves_seams() {
-            return Ok(None);
+            let allowed = self.recipe.tool.misfit == Misfit::CutWhatFits;
+            let asked = allowed && self.subject.compensates_nose;
+            return Ok(asked.then(report::Unreached::default));
         }
         let figures = unreached(touch, material_threshold(self.recipe));
         let figures = figures.map_err(|error| of_measure(self.recipe, error))?;
