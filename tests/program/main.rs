@@ -32,6 +32,7 @@ mod own_sampler;
 mod packed_ablations;
 mod passes;
 mod plugins_lock;
+mod program_verdicts;
 mod queues;
 mod random;
 mod readme;

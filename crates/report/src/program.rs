@@ -66,6 +66,17 @@ pub struct ProgramReport {
     /// of the path, or the path is not meant to cover the part.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub within_coverage: Option<bool>,
+    /// Largest error that the servos and the program together leave, mm; `None` without servos.
+    #[serde(
+        default,
+        rename = "servo_error_nm",
+        with = "unit::nm",
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub servo_error: Option<f64>,
+    /// Whether that holds the tolerance of the servos; `None` without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within_servo: Option<bool>,
     /// Peak to valley of the machined surface, mm; `None` without a tolerance of form, or where
     /// nothing is cut.
     #[serde(default, rename = "form_error_nm", with = "unit::nm")]
@@ -101,6 +112,8 @@ pub struct ProgramFigures {
     /// The largest step of C's speed at a control point, rad/s, where the controller keeps it within a
     /// segment.
     pub c_speed_step: Option<f64>,
+    /// Largest error that the servos and the program together leave, mm; `None` without servos.
+    pub servo_error: Option<f64>,
     /// Peak to valley of the machined surface, mm, where it was measured.
     pub form_error: Option<f64>,
     /// Smallest height of Z above the first touch on the leads, mm; `None` without leads.
@@ -119,6 +132,7 @@ impl ProgramReport {
             coverage,
             covers_part,
             c_speed_step,
+            servo_error,
             form_error,
             lead_clearance,
             lines,
@@ -142,6 +156,8 @@ impl ProgramReport {
             coverage,
             within_coverage: uncut
                 .and_then(|uncut| holds(uncut.largest(), tolerance.most_material())),
+            servo_error,
+            within_servo: servo_error.and_then(|error| holds(error, tolerance.servo)),
             form_error,
             within_form: holds(form_error.unwrap_or(f64::INFINITY), tolerance.form),
             lead_clearance,
@@ -169,6 +185,7 @@ impl ProgramReport {
             self.within_interpolation,
             self.within_residual,
             self.within_coverage,
+            self.within_servo,
             self.within_form,
             self.within_lead,
         ];
@@ -210,6 +227,7 @@ mod tests {
             coverage,
             covers_part,
             c_speed_step: None,
+            servo_error: None,
             form_error: None,
             lead_clearance: None,
             lines: height.map(|_| 1000),

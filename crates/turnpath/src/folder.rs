@@ -256,6 +256,7 @@ impl<'a> FolderSink<'a> {
         let carried = CarriedPath {
             error: outcome.figures.playback.max(),
             shape: job.shape(),
+            residual: job.preparation.task.tolerance.residual,
         };
         let report = program.measure(text, (&job.recipe, touch), carried, observer)?;
         drop(reader);

@@ -166,6 +166,8 @@ pub struct ProgramMeters {
     pub rate: SegmentRate,
     /// The steps of the speed of C, where the controller keeps it within a segment.
     pub speed_steps: Option<SpeedSteps>,
+    /// What the servos make of it, where that is asked.
+    pub servo: Option<ServoMeter>,
     /// Whether a block was begun.
     has_begun: bool,
 }
@@ -178,8 +180,15 @@ impl ProgramMeters {
             lead: LeadMeter::default(),
             rate: SegmentRate::default(),
             speed_steps: None,
+            servo: None,
             has_begun: false,
         }
+    }
+
+    /// The same with the servos that the recipe asks for.
+    pub fn with_servo(mut self, recipe: &Recipe) -> Self {
+        self.servo = recipe.servo.as_ref().map(ServoMeter::new);
+        self
     }
 
     /// The same with the steps of the speed of C, if the controller keeps it within a segment.
@@ -198,17 +207,17 @@ impl ProgramMeters {
 
 /// The figures of a block of a program.
 pub enum ProgramBlock {
-    /// Of the cut.
-    Cut(Box<ProgramBlockFigures>),
+    /// Of the cut, with what the servos make of it.
+    Cut(Box<(ProgramBlockFigures, Option<ServoBlockFigures>)>),
     /// Of a lead.
     Lead(Box<LeadBlockFigures>),
 }
 
 impl Meters for ProgramMeters {
-    type Start = ();
+    type Start = Option<ServoStart>;
     type Block = ProgramBlock;
 
-    fn advance(&mut self, points: &PathBlock) {
+    fn advance(&mut self, points: &PathBlock) -> Option<ServoStart> {
         // A block begins with the last point of the one before.
         let known = usize::from(std::mem::replace(&mut self.has_begun, true));
         for point in points.points().skip(known) {
@@ -217,18 +226,24 @@ impl Meters for ProgramMeters {
                 steps.pass(&point);
             }
         }
+        self.servo.as_mut().map(|servo| servo.advance(points))
     }
 
     fn measure(
         &self,
         section: Section,
         points: PathBlock,
-        (): (),
+        start: Option<ServoStart>,
     ) -> Result<ProgramBlock, StrategyError> {
+        let touch = self.cut.touch();
         Ok(match section {
-            Section::Cutting => ProgramBlock::Cut(Box::new(self.cut.measure(&points)?)),
+            Section::Cutting => {
+                let servo = start.map(|start| ServoMeter::measure(touch, &start, &points));
+                let figures = self.cut.measure(&points)?;
+                ProgramBlock::Cut(Box::new((figures, servo.transpose()?)))
+            }
             Section::LeadIn | Section::LeadOut => {
-                let figures = LeadMeter::measure(self.cut.touch(), &points)?;
+                let figures = LeadMeter::measure(touch, &points)?;
                 ProgramBlock::Lead(Box::new(figures))
             }
         })
@@ -236,7 +251,13 @@ impl Meters for ProgramMeters {
 
     fn append(&mut self, block: ProgramBlock) -> Result<(), StrategyError> {
         match block {
-            ProgramBlock::Cut(figures) => self.cut.append(*figures),
+            ProgramBlock::Cut(cut) => {
+                let (figures, servo) = *cut;
+                if let (Some(meter), Some(block)) = (&mut self.servo, &servo) {
+                    meter.append(block);
+                }
+                self.cut.append(figures)
+            }
             ProgramBlock::Lead(figures) => {
                 self.lead.append(&figures);
                 Ok(())

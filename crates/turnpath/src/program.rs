@@ -23,6 +23,11 @@ use crate::figures::{coverage, form_error, residual, tolerances};
 use crate::meters::{BLOCK_ROWS, ProgramMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
 
+/// The part of the residual tolerance that half of a last digit of positions may be, so that the passes of a program
+/// of cubics count as those of its path. A higher one would miss what digits do to cusps; with a lower one, programs
+/// of seven decimals would be measured too, which takes time and finds nothing.
+const COARSE_DIGITS: f64 = 0.01;
+
 /// A program that a recipe asks for.
 #[derive(Clone)]
 pub struct Program {
@@ -56,6 +61,8 @@ pub struct CarriedPath {
     pub error: f64,
     /// What is played between its control points.
     pub shape: SegmentShape,
+    /// The residual tolerance that it was made for, mm.
+    pub residual: f64,
 }
 
 /// What stands around the lines of a program.
@@ -232,8 +239,16 @@ impl Program {
         }
     }
 
-    /// Measures the program on the text of its path, which `text` reads. Straight lines in place of a
-    /// path's cubics move its passes, so what these leave is measured too.
+    /// Whether the passes of the program may leave more than those of its path: straight lines in place of a path's
+    /// cubics move them, and so do coarse digits.
+    fn moves_passes(&self, path: SegmentShape, residual: f64) -> bool {
+        let format = &self.layout.format;
+        let half_digit = 0.5 / 10_u64.pow(format.position_decimals) as f64;
+        format.shape() != path || half_digit > COARSE_DIGITS * residual
+    }
+
+    /// Measures the program on the text of its path, which `text` reads. What its passes leave is measured too, where
+    /// it may be more than what those of the path leave.
     pub fn measure(
         &self,
         text: ProgramText<'_>,
@@ -247,10 +262,10 @@ impl Program {
             points,
         } = text;
         observer.begin(Stage::ReadBack, points.div_ceil(BLOCK_ROWS as u64));
-        let meters = ProgramMeters::new(recipe, touch);
+        let meters = ProgramMeters::new(recipe, touch).with_servo(recipe);
         let mut meters = meters.with_speed_steps(self.layout.post.c_is_even);
         let shape = self.layout.format.shape();
-        if shape != path.shape {
+        if self.moves_passes(path.shape, path.residual) {
             meters = meters.with_passes(recipe);
         }
         let measured = measure(recipe, meters, shape, reader, observer)?;
@@ -276,6 +291,7 @@ impl Program {
             coverage: passes.map(|passes| coverage(&passes.coverage)),
             covers_part: overrun.covers_part(),
             c_speed_step: measured.speed_steps.map(|steps| steps.largest()),
+            servo_error: measured.servo.map(|servo| servo.figures().max()),
             form_error: form_error(form.as_ref(), lead_clearance),
             lead_clearance,
             lines: (shape == SegmentShape::Linear).then(|| points.saturating_sub(1)),

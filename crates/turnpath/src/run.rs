@@ -159,6 +159,7 @@ impl Job {
             let carried = CarriedPath {
                 error: outcome.figures.playback.max(),
                 shape: self.shape(),
+                residual: self.preparation.task.tolerance.residual,
             };
             let report = program.measure(text, (&self.recipe, touch), carried, observer)?;
             drop(reader);

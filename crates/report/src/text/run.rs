@@ -110,6 +110,10 @@ fn program(program: &ProgramReport, tolerance: &Tolerances, of_path: &Verdict) -
         );
     }
     text += &passes(program, tolerance, of_path);
+    if let (Some(error), Some(holds)) = (program.servo_error, program.within_servo) {
+        let limit = against_any(error, tolerance.servo, Some(holds));
+        text += &line("", format!("{limit} servo"));
+    }
     if let Some(holds) = program.within_form {
         let limit = against_any(
             program.form_error.unwrap_or(f64::NAN),
@@ -147,10 +151,13 @@ fn passes(program: &ProgramReport, tolerance: &Tolerances, of_path: &Verdict) ->
         (program.within_coverage, of_path.coverage),
     ];
     if verdicts.contains(&(Some(false), Some(true))) {
-        text += &line(
-            "",
-            "the path holds what the program exceeds: give the post a smaller `chord_share`, so that more lines come nearer to the path",
-        );
+        let straight = program.straight_lines.as_ref();
+        let help = match straight.is_some_and(|straight| straight.per_segment > 1.0) {
+            true => "a smaller `chord_share`, so that more lines come nearer to the path",
+            false => "more `position_decimals`",
+        };
+        let text_of_help = format!("the path holds what the program exceeds: give the post {help}");
+        text += &line("", text_of_help);
     }
     text
 }
