@@ -1,10 +1,10 @@
 //! What a run measures on the cutting section, and the result that it gives.
 
-use turnpath_core::toolpath::PathBlock;
+use turnpath_core::toolpath::{PathBlock, Section};
 use turnpath_verify::machined::{MachinedFigures, SurfaceExtremes};
 use turnpath_verify::{
-    AxesMotion, BlockFigures, BlockPlayback, Meter, PathFigures, PathSketch, ServoBlockFigures,
-    ServoFigures, ServoMeter, ServoStart,
+    AxesMotion, BlockFigures, BlockPlayback, CertainBlock, CertainMeter, CertainMotion, Meter,
+    PathFigures, PathSketch, Rounding, ServoBlockFigures, ServoFigures, ServoMeter, ServoStart,
 };
 
 use crate::feed_cap::{FeedCap, feed_cap};
@@ -31,6 +31,8 @@ pub struct Outcome {
     /// the feed run out, are not included. `None` where another law took the place of the
     /// strategy's.
     pub own_axes: Option<AxesMotion>,
+    /// What is certain of the motion of the axes, where the machine has limits.
+    pub certain: Option<CertainMotion>,
     /// The surface that the path would leave; `None` where it cuts nothing of the part.
     pub machined: Option<MachinedFigures>,
     /// The form of that surface, where [`PathOptions::form`](crate::PathOptions::form) asks for it.
@@ -54,6 +56,7 @@ pub struct Measurement {
     points: u64,
     placed: u64,
     own_axes: AxesMotion,
+    certain: CertainMeter,
     sketch: bool,
 }
 
@@ -63,6 +66,7 @@ pub struct BlockMeasurement {
     pub figures: BlockFigures,
     servo: Option<ServoBlockFigures>,
     own_axes: AxesMotion,
+    certain: Option<CertainBlock>,
     points: usize,
     placed: usize,
 }
@@ -79,6 +83,7 @@ impl Measurement {
             points: 0,
             placed: 0,
             own_axes: AxesMotion::default(),
+            certain: CertainMeter::new(Rounding::default(), Rounding::default()),
             sketch: options.sketch,
         }
     }
@@ -98,6 +103,9 @@ impl Measurement {
         self.points += block.points as u64;
         self.placed += block.placed as u64;
         self.own_axes.append(&block.own_axes);
+        if let Some(block) = &block.certain {
+            self.certain.append(block);
+        }
         Ok(())
     }
 
@@ -116,6 +124,11 @@ impl Measurement {
             revolutions,
             cutting_time: plan.spindle.time_at(revolutions),
             own_axes: plan.own_angles().map(|_| self.own_axes),
+            certain: self
+                .certain
+                .cut()
+                .copied()
+                .filter(|_| plan.preparation.task.machine.has_limits()),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
             form: self.meter.form().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,
@@ -147,8 +160,12 @@ impl BlockMeasurement {
                 true => figures.axes,
                 false => AxesMotion::between(&block.points, angles),
             });
+        let has_limits = plan.preparation.task.machine.has_limits();
+        let certain = has_limits
+            .then(|| CertainBlock::of(Section::Cutting, &block.points, &Rounding::default()));
         Ok(Self {
             figures,
+            certain,
             servo: servo.transpose().map_err(PipelineError::Measure)?,
             own_axes: own_axes.unwrap_or_default(),
             points: block.owner.len(),

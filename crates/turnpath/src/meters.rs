@@ -56,7 +56,7 @@ pub struct PathMeters {
     pub lead: LeadMeter,
     /// What the servos make of it, where that is asked.
     pub servo: Option<ServoMeter>,
-    /// What is certain of the motion of the axes, where the file has last digits.
+    /// What is certain of the motion of the axes, where the recipe has limits.
     pub certain: Option<CertainMeter>,
     /// Control points that stand out among their neighbours, where that may be asked.
     pub anomalies: Option<AnomalyDetector>,
@@ -83,11 +83,11 @@ impl PathMeters {
         self
     }
 
-    /// The same with what is certain of the motion of the axes, if the numbers of the cut and of the leads were
-    /// rounded, and the recipe has limits.
-    pub fn with_certain(mut self, recipe: &Recipe, roundings: Option<[Rounding; 2]>) -> Self {
-        let roundings = roundings.filter(|_| recipe.machine.has_limits());
-        self.certain = roundings.map(|[of_cut, of_leads]| CertainMeter::new(of_cut, of_leads));
+    /// The same with what is certain of the motion of the axes, if the recipe has limits. The numbers of the cut and
+    /// of the leads are rounded so.
+    pub fn with_certain(mut self, recipe: &Recipe, [of_cut, of_leads]: [Rounding; 2]) -> Self {
+        let has_limits = recipe.machine.has_limits();
+        self.certain = has_limits.then(|| CertainMeter::new(of_cut, of_leads));
         self
     }
 

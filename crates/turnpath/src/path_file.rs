@@ -69,10 +69,11 @@ impl SourceFile {
         })
     }
 
-    /// By how much its numbers lie beside those that were rounded, in the cut and in leads; `None` if it has all
-    /// digits of a double.
-    pub fn roundings(&self) -> Option<[Rounding; 2]> {
-        let Layout { format, .. } = self.program?;
+    /// By how much its numbers lie beside those that were rounded, in the cut and in leads.
+    pub fn roundings(&self) -> [Rounding; 2] {
+        let Some(Layout { format, .. }) = self.program else {
+            return [Rounding::default(); 2];
+        };
         let digit = one_in(format.position_decimals);
         let rounding = |in_lead: bool| {
             let [c, x, z] = format.position_rounding(in_lead);
@@ -80,14 +81,16 @@ impl SourceFile {
                 digits: HalfDigits {
                     position: x.max(z) * digit,
                     angle: c * digit * DEG,
+                    time: 0.0,
                     ..self.half_digits()
                 },
+                last_digit: digit,
                 part: format.held_part().unwrap_or(0.0),
                 largest_angle: if format.c_wrapped { TAU } else { f64::INFINITY },
                 z_above: format.z_above,
             }
         };
-        Some([rounding(false), rounding(true)])
+        [rounding(false), rounding(true)]
     }
 
     /// Half of its last digits; zero if it has all digits of a double.
@@ -127,7 +130,7 @@ mod tests {
         let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
         let recipe = Recipe::parse(RECIPE, "recipe.toml", &sets).unwrap();
         let file = SourceFile::new(Path::new(file), &recipe, true).unwrap();
-        file.roundings().unwrap()
+        file.roundings()
     }
 
     #[track_caller]
@@ -190,6 +193,6 @@ mod tests {
     fn a_table_has_all_digits() {
         let recipe = Recipe::parse(RECIPE, "recipe.toml", &[]).unwrap();
         let table = SourceFile::new(Path::new("toolpath.csv"), &recipe, true).unwrap();
-        assert_eq!(table.roundings(), None);
+        assert_eq!(table.roundings(), [Rounding::default(); 2]);
     }
 }

@@ -304,7 +304,7 @@ impl Job {
         let leads = outcome.lead.as_ref();
         let lead = leads.map(|leads| figures::lead(&leads.figures, Some(leads), None, recipe));
         let cut = CutFigures {
-            certain: None,
+            certain: outcome.certain.as_ref(),
             path: &outcome.figures,
             machined: outcome.machined.as_ref(),
             form: outcome.form.as_ref(),

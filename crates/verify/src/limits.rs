@@ -11,6 +11,9 @@ use turnpath_core::{Axis, Derivative, Limit, Machine, Scalar};
 use crate::axes::{AxesMotion, Peak};
 use crate::certain_motion::CertainMotion;
 
+/// From this part of an amount on, what is certain of it counts as all of it: limits are judged to a thousandth.
+const NEARLY_ALL: f64 = 0.999;
+
 /// One limit and the largest amount on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitFigure {
@@ -18,7 +21,7 @@ pub struct LimitFigure {
     pub limit: Limit,
     /// The largest amount; `None` where no such figure exists: the jerk of straight segments.
     pub peak: Option<Peak>,
-    /// What is certain of it, where the path's numbers were rounded to last digits; `None` where they were not.
+    /// What is certain of it; `None` where nearly all of it is.
     pub certain: Option<Peak>,
 }
 
@@ -59,7 +62,9 @@ impl AxesMotion {
             LimitFigure {
                 limit,
                 peak,
-                certain: certain.filter(|_| peak.is_some()),
+                certain: certain.filter(|certain| {
+                    peak.is_some_and(|peak| certain.amount < NEARLY_ALL * peak.amount)
+                }),
             }
         };
         machine.limits().map(figure).collect()
