@@ -67,7 +67,7 @@ fn programs_hold_the_limits_of_their_path_whatever_their_last_digits_make() {
         );
     }
     let said = bench.line("verify recipe.toml out/recipe.pmc").ends(0);
-    assert!(said.stdout.contains("with last digits"), "{said}");
+    assert!(said.stdout.contains("with rounding"), "{said}");
     // All digits of a double are certain, but for last bits.
     let said = bench.line("verify recipe.toml out/toolpath.csv --format json");
     let report = said.ends(0).json();

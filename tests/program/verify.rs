@@ -100,8 +100,6 @@ fn a_file_of_the_program_gives_the_figures_of_its_summary() {
     }
 }
 
-/// Where a hollow part slopes up to its rim all around, X ends inside of the rim that the contact
-/// reaches; on a crown beyond it.
 /// A nose of 1 mm fits lenses of 10 mm, so nothing is left between them, though the recipe would allow it.
 const LENSES: &str = r#"format = 1
 name = "Lenses"
@@ -160,6 +158,8 @@ fn a_nose_that_fits_everywhere_is_measured_as_in_its_run() {
     assert_eq!(report["unreached"], summary["unreached"]);
 }
 
+/// Where a hollow part slopes up to its rim all around, X ends inside of the rim that the contact
+/// reaches; on a crown beyond it.
 #[test]
 fn a_path_whose_contact_goes_to_the_rim_covers_it_wherever_x_is() {
     for radius in ["40 mm", "-40 mm"] {

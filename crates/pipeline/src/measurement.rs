@@ -56,7 +56,7 @@ pub struct Measurement {
     points: u64,
     placed: u64,
     own_axes: AxesMotion,
-    certain: CertainMeter,
+    certain: Option<CertainMeter>,
     sketch: bool,
 }
 
@@ -83,7 +83,11 @@ impl Measurement {
             points: 0,
             placed: 0,
             own_axes: AxesMotion::default(),
-            certain: CertainMeter::new(Rounding::default(), Rounding::default()),
+            certain: preparation
+                .task
+                .machine
+                .has_limits()
+                .then(CertainMeter::default),
             sketch: options.sketch,
         }
     }
@@ -103,8 +107,8 @@ impl Measurement {
         self.points += block.points as u64;
         self.placed += block.placed as u64;
         self.own_axes.append(&block.own_axes);
-        if let Some(block) = &block.certain {
-            self.certain.append(block);
+        if let (Some(meter), Some(block)) = (&mut self.certain, &block.certain) {
+            meter.append(block);
         }
         Ok(())
     }
@@ -124,11 +128,7 @@ impl Measurement {
             revolutions,
             cutting_time: plan.spindle.time_at(revolutions),
             own_axes: plan.own_angles().map(|_| self.own_axes),
-            certain: self
-                .certain
-                .cut()
-                .copied()
-                .filter(|_| plan.preparation.task.machine.has_limits()),
+            certain: self.certain.and_then(|meter| meter.cut().copied()),
             machined: self.meter.machined().map_err(PipelineError::Measure)?,
             form: self.meter.form().map_err(PipelineError::Measure)?,
             figures: self.meter.figures().map_err(PipelineError::Measure)?,

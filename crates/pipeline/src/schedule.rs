@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use turnpath_core::Machine;
 use turnpath_core::toolpath::PathBlock;
-use turnpath_verify::AxesMotion;
+use turnpath_verify::{AxesMotion, CertainMotion};
 
 use crate::make::{BlockPoints, Depths, first_state, make};
 use crate::observer::{Observer, stop_if_cancelled};
@@ -203,7 +203,9 @@ fn include(plan: &Plan<'_>, block: &BlockPoints, all: &mut [f64]) {
         let to = before(PI * (half + 1) as f64).min(points.len() - 1);
         let part = (from..=to).filter_map(|index| points.get(index));
         let part = PathBlock::of(points.shape, part);
-        let figures = AxesMotion::of(&part).against(machine, None).into_iter();
+        let certain = CertainMotion::of(&part);
+        let figures = AxesMotion::of(&part).against(machine, Some(&certain));
+        let figures = figures.into_iter();
         let of_limits = figures.map(|figure| figure.speed_factor());
         if let Some(headroom) = all.get_mut(half) {
             *headroom = of_limits.fold(*headroom, f64::min);

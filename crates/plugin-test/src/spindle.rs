@@ -21,7 +21,10 @@ pub fn check(chain: &TrialChain, outcome: &Outcome) -> Vec<FaultKind> {
         return Vec::new();
     }
     let mut faults: Vec<FaultKind> = factors(chain).err().into_iter().collect();
-    let figures = outcome.figures.axes.against(&chain.task().machine, None);
+    let figures = outcome
+        .figures
+        .axes
+        .against(&chain.task().machine, outcome.certain.as_ref());
     let exceeded = figures
         .into_iter()
         .filter(|figure| figure.ratio() > 1.0 + SLACK);

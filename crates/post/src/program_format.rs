@@ -54,7 +54,7 @@ pub enum FeedMeaning {
 }
 
 /// Most steps by which a place of a lead is lifted, so that the line to it is not too slow.
-const LIFTS: f64 = 2.0;
+pub(crate) const LIFTS: u32 = 2;
 
 /// The slowest motion that a controller plays in the time that F says.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -192,10 +192,10 @@ impl ProgramFormat {
         let lifts = if in_lead && slowest.is_some() {
             LIFTS
         } else {
-            0.0
+            0
         };
         let [c, x, z] = self.position_steps(in_lead).map(|step| step as f64);
-        [0.5 * c, 0.5 * x, (0.5 + lifts) * z]
+        [0.5 * c, 0.5 * x, (0.5 + f64::from(lifts)) * z]
     }
 
     /// The part of an absolute position by which the controller's numbers move it, at most; `None` where they hold

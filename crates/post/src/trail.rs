@@ -8,7 +8,7 @@ use crate::digit_columns::DigitColumns;
 use crate::digit_segments::DigitSegments;
 use crate::digits::{DigitSegment, Digits, Place, steps_of, turn};
 use crate::program_error::ProgramError;
-use crate::program_format::{ProgramFormat, Slowest};
+use crate::program_format::{LIFTS, ProgramFormat, Slowest};
 
 /// Most chords of a segment: far more than any path needs that a machine can play.
 const MOST_CHORDS: i64 = 1_000_000;
@@ -59,8 +59,10 @@ impl Slowest {
     /// Moves a place of a lead away from the part, by a step or two, so that the line to it is not slow.
     fn lift(&self, from: &Digits, to: &mut Digits) {
         let step = self.lead_steps[2];
-        while self.is_slow(from, to) {
-            to.position[2] += step;
+        for _ in 0..LIFTS {
+            if self.is_slow(from, to) {
+                to.position[2] += step;
+            }
         }
     }
 }

@@ -51,8 +51,8 @@ pub struct LimitFigure {
     /// The largest amount and its place; `None` where it was not measured: straight segments have
     /// no jerk, and before a path there is nothing to measure.
     pub measured: Option<(f64, PathPlace)>,
-    /// The largest amount that is certain and its place, where last digits of a program can make a part of it; `None`
-    /// where the numbers have all digits.
+    /// The largest amount that is certain and its place, where rounding of the path's numbers can make more than a
+    /// thousandth of it; `None` where it cannot.
     pub certain: Option<(f64, PathPlace)>,
 }
 
@@ -100,7 +100,7 @@ impl LimitFigure {
             .map(|(amount, _)| within(amount, self.limit.value))
     }
 
-    /// Whether the limit holds only because last digits can have made what is above it.
+    /// Whether the limit holds only because rounding can have made what is above it.
     pub fn holds_without_digits(&self) -> bool {
         let is_above = |(amount, _)| !within(amount, self.limit.value);
         self.measured.is_some_and(is_above) && self.holds() == Some(true)
@@ -142,7 +142,11 @@ impl Serialize for LimitFigure {
             limit: self.limit.key(),
             amounts: amounts.into_iter().chain(certain).map(entry).collect(),
             at: self.measured.map(|(_, at)| at),
-            certain_at: self.certain.map(|(_, at)| at),
+            // Where nothing is certain there is no place.
+            certain_at: self
+                .certain
+                .filter(|(amount, _)| *amount > 0.0)
+                .map(|(_, at)| at),
             holds: self.holds(),
         }
         .serialize(to)
@@ -165,11 +169,18 @@ impl<'de> Deserialize<'de> for LimitFigure {
         };
         let value = amount("limit").unwrap_or(f64::NAN);
         let measured = amount("measured").unwrap_or(f64::NAN);
-        let certain = amount("certain").unwrap_or(f64::NAN);
         Ok(Self {
             limit: Limit { value, ..unvalued },
             measured: limit.at.map(|at| (measured, at)),
-            certain: limit.certain_at.map(|at| (certain, at)),
+            certain: limit
+                .amounts
+                .contains_key(&format!("certain_{suffix}"))
+                .then(|| {
+                    (
+                        amount("certain").unwrap_or(f64::NAN),
+                        limit.certain_at.unwrap_or_default(),
+                    )
+                }),
         })
     }
 }

@@ -20,7 +20,8 @@ impl Job {
     pub(crate) fn remarks(&self, path: &PathSubject) -> Result<Vec<Remark>, Error> {
         let found = &self.preparation.interference;
         let mut all = remarks(&self.recipe, path, found.cut_angle().value);
-        all.extend(short_edge(&self.recipe, path, found.contact_angle().value));
+        let steepest = found.contact_angle().value;
+        all.extend(short_edge(&self.preparation.task, path, steepest));
         all.extend(self.data_remarks(path.tolerance.interpolation)?);
         all.extend(inexact(
             &self.recipe,

@@ -185,9 +185,11 @@ impl ProgramMeters {
         }
     }
 
-    /// The same with the servos that the recipe asks for.
+    /// The same with the servos, if the recipe holds them to a tolerance.
     pub fn with_servo(mut self, recipe: &Recipe) -> Self {
-        self.servo = recipe.servo.as_ref().map(ServoMeter::new);
+        let is_held = recipe.tolerances.servo.is_some();
+        let servo = recipe.servo.as_ref().filter(|_| is_held);
+        self.servo = servo.map(ServoMeter::new);
         self
     }
 

@@ -79,12 +79,13 @@ impl SourceFile {
             let [c, x, z] = format.position_rounding(in_lead);
             Rounding {
                 digits: HalfDigits {
-                    position: x.max(z) * digit,
+                    position: x * digit,
                     angle: c * digit * DEG,
                     time: 0.0,
                     ..self.half_digits()
                 },
-                last_digit: digit,
+                lift: (z - x) * digit,
+                last_digit: Some(digit),
                 part: format.held_part().unwrap_or(0.0),
                 largest_angle: if format.c_wrapped { TAU } else { f64::INFINITY },
                 z_above: format.z_above,
@@ -186,7 +187,8 @@ mod tests {
             .unwrap();
         let step = 1e-7 * slowest.lead_steps[2] as f64;
         assert!(step > 1e-6, "{step}");
-        assert_near(leads.digits.position, 2.5 * step);
+        assert_near(leads.digits.position, 0.5 * step);
+        assert_near(leads.lift, 2.0 * step);
     }
 
     #[test]

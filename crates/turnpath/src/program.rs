@@ -243,8 +243,9 @@ impl Program {
     /// cubics move them, and so do coarse digits.
     fn moves_passes(&self, path: SegmentShape, residual: f64) -> bool {
         let format = &self.layout.format;
-        let half_digit = 0.5 / 10_u64.pow(format.position_decimals) as f64;
-        format.shape() != path || half_digit > COARSE_DIGITS * residual
+        let [_, x, _] = format.position_rounding(false);
+        let rounding = x / 10_u64.pow(format.position_decimals) as f64;
+        format.shape() != path || rounding > COARSE_DIGITS * residual
     }
 
     /// Measures the program on the text of its path, which `text` reads. What its passes leave is measured too, where

@@ -1,8 +1,8 @@
 //! What is allowed in a recipe but seldom meant.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use turnpath_core::{Axis, DEG, Derivative, Misfit, Scalar, Tolerance};
+use turnpath_core::{Axis, DEG, Derivative, Misfit, Scalar, Task, Tolerance};
 use turnpath_pipeline::SMALLEST_SEGMENT;
 use turnpath_post::Layout;
 use turnpath_recipe::Recipe;
@@ -66,8 +66,8 @@ pub fn shortest_segments(tolerance: &Tolerance, playback: &PlaybackFigures) -> O
 
 /// The remark on a tool whose edge ends before the tips of the cusps at the steepest contact, which has this angle to
 /// the horizontal, rad. Where the nose may leave seams, what it leaves is measured instead.
-pub fn short_edge(recipe: &Recipe, path: &PathSubject, steepest: f64) -> Option<Remark> {
-    let (tool, part) = (&recipe.tool, &recipe.part);
+pub fn short_edge(task: &Task, path: &PathSubject, steepest: f64) -> Option<Remark> {
+    let (tool, part) = (&task.tool, &task.part);
     let included_angle = tool
         .included_angle
         .filter(|_| tool.misfit == Misfit::Refuse)?;
@@ -80,7 +80,7 @@ pub fn short_edge(recipe: &Recipe, path: &PathSubject, steepest: f64) -> Option<
     (edge < meeting).then_some(Remark::ShortEdge {
         edge,
         meeting,
-        included_angle: 2.0 * (steepest + meeting),
+        included_angle: (2.0 * (steepest + meeting)).min(PI),
     })
 }
 

@@ -302,7 +302,8 @@ impl Job {
     ) -> Result<RunReport, Error> {
         let recipe = &self.recipe;
         let leads = outcome.lead.as_ref();
-        let lead = leads.map(|leads| figures::lead(&leads.figures, Some(leads), None, recipe));
+        let lead = leads
+            .map(|leads| figures::lead(&leads.figures, Some(leads), Some(&leads.certain), recipe));
         let cut = CutFigures {
             certain: outcome.certain.as_ref(),
             path: &outcome.figures,

@@ -10,15 +10,21 @@ use turnpath_core::{Axis, Derivative};
 
 use crate::axes::Peak;
 use crate::axis_terms::AxisTerm;
-use crate::comparison::{HalfDigits, ROUNDING};
+use crate::comparison::HalfDigits;
+
+/// What last bits of doubles may make of a number, as a part of it. Several operations lie between it and the path, and
+/// with half of this some of what they make stays. With more, real jerks of short segments late in a path would go.
+const OF_DOUBLES: f64 = 8.0 * f64::EPSILON;
 
 /// By how much numbers of a path may lie beside those that were rounded, besides the last bits of doubles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rounding {
-    /// Of times, positions and velocities. Straight lines have no velocities, and steps of time are exact.
+    /// Of positions and velocities. Straight lines have no velocities, and steps of time are exact.
     pub digits: HalfDigits,
-    /// The last digit of X, mm; zero where X has all digits of a double.
-    pub last_digit: f64,
+    /// By how much places of Z may have been lifted besides, mm.
+    pub lift: f64,
+    /// The last digit of X, mm; `None` where X has all digits of a double.
+    pub last_digit: Option<f64>,
     /// The part of a position that is rounded besides: that of a controller that holds few bits.
     pub part: f64,
     /// The largest angle that the controller holds, rad; infinite where C is not wrapped.
@@ -32,7 +38,8 @@ impl Default for Rounding {
     fn default() -> Self {
         Self {
             digits: HalfDigits::default(),
-            last_digit: 0.0,
+            lift: 0.0,
+            last_digit: None,
             part: 0.0,
             largest_angle: f64::INFINITY,
             z_above: 0.0,
@@ -41,12 +48,6 @@ impl Default for Rounding {
 }
 
 impl Rounding {
-    /// The same where times may lie beside theirs by so much more, s.
-    fn with_times(mut self, rounding: f64) -> Self {
-        self.digits.time += rounding;
-        self
-    }
-
     /// The most that rounding can make of the position of an axis at either end of a segment. An axis at a wrong time is
     /// at a wrong place.
     fn of_positions(&self, axis: Axis, segment: &Segment) -> f64 {
@@ -60,10 +61,12 @@ impl Rounding {
         let speed = (to - from).abs() / segment.duration;
         let digits = match axis {
             Axis::C => self.digits.angle,
-            Axis::X | Axis::Z => self.digits.position,
+            Axis::X => self.digits.position,
+            Axis::Z => self.digits.position + self.lift,
         };
-        let of_double = ROUNDING * from.abs().max(to.abs());
-        digits + self.part * size + of_double + speed * self.digits.time
+        let end = segment.start.abs() + segment.duration;
+        let of_doubles = OF_DOUBLES * (from.abs().max(to.abs()) + speed * end);
+        digits + self.part * size + of_doubles
     }
 
     /// The most that rounding can make of the velocity, acceleration and jerk of a cubic. With p and v the rounding
@@ -77,7 +80,7 @@ impl Rounding {
             Axis::X | Axis::Z => self.digits.velocity,
         };
         let largest = cubic.slope(0.0).abs().max(cubic.slope(1.0).abs()) / duration;
-        let velocity = digits + ROUNDING * largest;
+        let velocity = digits + OF_DOUBLES * largest;
         let first = 3.0 * rate + velocity;
         let second = (12.0 * rate + 6.0 * velocity) / duration;
         [first, second, 2.0 * second / duration]
@@ -97,7 +100,12 @@ pub struct CertainMotion {
 }
 
 impl CertainMotion {
-    /// The largest amount of a derivative, and the middle or the end of its segment.
+    /// What is certain of the motion between neighbouring control points that are doubles.
+    pub fn of(points: &PathBlock) -> Self {
+        CertainBlock::of(Section::Cutting, points, &Rounding::default()).motion
+    }
+
+    /// The largest amount of a derivative, and the middle of its segment, or the corner of its blend.
     pub fn peak(&self, axis: Axis, derivative: Derivative) -> Peak {
         self.largest[axis as usize][derivative as usize]
     }
@@ -122,6 +130,15 @@ impl CertainMotion {
         for axis in Axis::ALL {
             let term = AxisTerm::of(played(segment, axis), segment.duration);
             let amounts = [term.velocity, term.acceleration, term.jerk];
+            let largest = &self.largest[axis as usize];
+            if amounts
+                .iter()
+                .zip(largest)
+                .all(|(amount, largest)| *amount <= largest.amount)
+            {
+                // Rounding takes from an amount, and never adds to it.
+                continue;
+            }
             let roundings = rounding.of_cubic(axis, segment);
             let each = amounts.into_iter().zip(roundings);
             for (derivative, (amount, rounding)) in Derivative::ALL.into_iter().zip(each) {
@@ -175,11 +192,13 @@ fn rate(line: &Segment, axis: Axis) -> f64 {
 /// How far, in last digits, a number may lie beside a whole number of them.
 const OFF_DIGIT: f64 = 1e-2;
 
-/// Whether X is no whole number of last digits. Where it has all digits of a double, it always is.
+/// Whether X is no whole number of last digits, though it was said to be one.
 fn is_off_digits(x: f64, rounding: &Rounding) -> bool {
-    let number = x / rounding.last_digit;
-    let held = rounding.part * x.abs() / rounding.last_digit;
-    (number - number.round()).abs() > OFF_DIGIT + held + ROUNDING * number.abs()
+    rounding.last_digit.is_some_and(|digit| {
+        let number = x / digit;
+        let held = rounding.part * number.abs();
+        (number - number.round()).abs() > OFF_DIGIT + held + OF_DOUBLES * number.abs()
+    })
 }
 
 /// What is certain of a block.
@@ -189,8 +208,6 @@ pub struct CertainBlock {
     motion: CertainMotion,
     /// Its first and its last segment, if they are straight.
     outer: Option<[Segment; 2]>,
-    /// Rounding of its times, s.
-    of_times: f64,
     /// Whether it has more digits than it was said to have.
     has_more_digits: bool,
 }
@@ -198,23 +215,16 @@ pub struct CertainBlock {
 impl CertainBlock {
     /// What is certain of the segments between neighbouring points.
     pub fn of(section: Section, points: &PathBlock, rounding: &Rounding) -> Self {
-        let latest = points
-            .t
-            .iter()
-            .fold(0.0_f64, |latest, t| latest.max(t.abs()));
-        let of_times = ROUNDING * latest;
         let mut block = Self {
             section,
             motion: CertainMotion::default(),
             outer: None,
-            of_times,
             has_more_digits: points.x.iter().any(|x| is_off_digits(*x, rounding)),
         };
-        let rounding = rounding.with_times(of_times);
         for segment in points.segments() {
             match points.shape {
-                SegmentShape::Cubic => block.motion.include_cubic(&segment, &rounding),
-                SegmentShape::Linear => block.follow_line(segment, &rounding),
+                SegmentShape::Cubic => block.motion.include_cubic(&segment, rounding),
+                SegmentShape::Linear => block.follow_line(segment, rounding),
             }
         }
         block
@@ -235,7 +245,7 @@ impl CertainBlock {
 }
 
 /// Measures what is certain of a path. Blocks can be measured in parallel, and are appended in their order.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct CertainMeter {
     of_cut: Rounding,
     of_leads: Rounding,
@@ -280,7 +290,7 @@ impl CertainMeter {
                     Section::Cutting => section,
                     lead => lead,
                 };
-                let rounding = self.rounding(of_blend).with_times(next.of_times);
+                let rounding = *self.rounding(of_blend);
                 self.of_section(of_blend)
                     .include_blend([&before, &first], &rounding);
             }
@@ -328,7 +338,7 @@ mod tests {
     fn rounding() -> Rounding {
         Rounding {
             digits: DIGITS,
-            last_digit: 2.0 * DIGITS.position,
+            last_digit: Some(2.0 * DIGITS.position),
             ..Rounding::default()
         }
     }
@@ -632,7 +642,7 @@ mod tests {
                 position: 100.0 * DIGITS.position,
                 ..DIGITS
             },
-            last_digit: 200.0 * DIGITS.position,
+            last_digit: Some(200.0 * DIGITS.position),
             ..Rounding::default()
         };
         for (said, is_known) in [

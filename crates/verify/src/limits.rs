@@ -53,8 +53,8 @@ impl LimitFigure {
 }
 
 impl AxesMotion {
-    /// Each limit of the machine with the path's largest amount. `certain` is what is certain of the motion, if the
-    /// path's numbers were rounded.
+    /// Each limit of the machine with the path's largest amount. `certain` is what is certain of the motion, if
+    /// that was measured.
     pub fn against(&self, machine: &Machine, certain: Option<&CertainMotion>) -> Vec<LimitFigure> {
         let figure = |limit: Limit| {
             let peak = self.peak(limit.axis, limit.derivative);

@@ -1,7 +1,7 @@
 //! The verdict of a run: what holds and what does not, with the figures.
 
 use turnpath_report::text::{grouped, limit_amount, limit_name, warnings};
-use turnpath_report::{LimitFigure, RunReport, unit};
+use turnpath_report::{RunReport, unit};
 
 use crate::html::{element, escaped, row};
 use crate::words::{number, small_length};
@@ -74,10 +74,8 @@ fn limit_rows(report: &RunReport) -> String {
         .map(|limit| ("", limit))
         .chain(lead.map(|limit| ("lead: ", limit)));
     let rows = rows.filter_map(|(of, figure)| {
-        let LimitFigure {
-            limit, measured, ..
-        } = figure;
-        let (amount, _) = (*measured)?;
+        let limit = &figure.limit;
+        let (amount, _) = figure.decisive()?;
         let name = format!("{of}{}", limit_name(limit.axis, limit.derivative));
         let (found, most) = (
             limit_amount(limit, amount),

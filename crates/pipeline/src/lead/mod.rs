@@ -23,8 +23,10 @@ mod nodes;
 mod phases;
 mod spline;
 
-use turnpath_core::toolpath::{ControlPoint, PathBlock};
-use turnpath_verify::{AxesMotion, LeadFigures, LeadMeter};
+use turnpath_core::toolpath::{ControlPoint, PathBlock, Section};
+use turnpath_verify::{
+    AxesMotion, CertainMeter, CertainMotion, LeadBlockFigures, LeadFigures, LeadMeter,
+};
 
 use crate::make::{Depths, first_state, make};
 use crate::plan::{Plan, Start};
@@ -54,6 +56,8 @@ pub struct Leads {
     pub points: u64,
     /// The figures measured on them.
     pub figures: LeadFigures,
+    /// What is certain of the motion of the axes on them.
+    pub certain: CertainMotion,
 }
 
 impl Leads {
@@ -92,6 +96,7 @@ impl LeadTask {
 pub struct LeadRun {
     task: LeadTask,
     meter: LeadMeter,
+    certain: CertainMeter,
     /// The points of the lead-in with the point of the join, once they are made.
     lead_in: Option<PathBlock>,
     turns_in: f64,
@@ -104,6 +109,7 @@ impl LeadRun {
         let mut run = Self {
             task,
             meter: LeadMeter::default(),
+            certain: CertainMeter::default(),
             lead_in: None,
             turns_in: 0.0,
         };
@@ -118,11 +124,24 @@ impl LeadRun {
         let points = maker.points(&layout, &join)?;
         let figures = maker.measure(&points)?;
         run.turns_in = layout.turns;
-        run.meter.append(&figures);
-        run.meter
-            .append_cut(&PathBlock::of(plan.segment_shape(), cut));
+        run.append(Section::LeadIn, &points, &figures);
+        run.append_cut(&PathBlock::of(plan.segment_shape(), cut));
         run.lead_in = Some(points);
         Ok(run)
+    }
+
+    /// Appends the figures of a lead.
+    fn append(&mut self, section: Section, points: &PathBlock, figures: &LeadBlockFigures) {
+        self.meter.append(figures);
+        let certain = self.certain.measure(section, points);
+        self.certain.append(&certain);
+    }
+
+    /// Appends the end of the cut to which a lead is joined.
+    fn append_cut(&mut self, points: &PathBlock) {
+        self.meter.append_cut(points);
+        let certain = self.certain.measure(Section::Cutting, points);
+        self.certain.append(&certain);
     }
 
     /// The lead-in's points, without that of the join.
@@ -151,9 +170,8 @@ impl LeadRun {
         let layout = maker.lay_out(LeadKind::Out, &join)?;
         let points = maker.points(&layout, &join)?;
         let figures = maker.measure(&points)?;
-        let mut meter = std::mem::take(&mut self.meter);
-        meter.append_cut(&PathBlock::of(plan.segment_shape(), *pair));
-        meter.append(&figures);
+        self.append_cut(&PathBlock::of(plan.segment_shape(), *pair));
+        self.append(Section::LeadOut, &points, &figures);
         let time = |points: &PathBlock| extent(&points.t);
         let lead_in = self.lead_in.take().unwrap_or_default();
         let leads = Leads {
@@ -164,7 +182,8 @@ impl LeadRun {
             rest_z: self.rest_z(),
             highest_z: self.task.highest_z,
             points: (lead_in.len() + points.len()).saturating_sub(2) as u64,
-            figures: meter.figures().copied().unwrap_or_default(),
+            figures: self.meter.figures().copied().unwrap_or_default(),
+            certain: self.certain.leads().copied().unwrap_or_default(),
         };
         Ok((without_first(&points), leads))
     }

@@ -16,12 +16,12 @@ def file_of(function: Callable[..., Any]) -> str:
 
 def warn_at(function: Callable[..., Any], text: str, category: type[Warning]) -> None:
     """Warns at the line where a function begins: the call that finds out is one of turnpath's own."""
-    code = inspect.unwrap(function).__code__
+    function = inspect.unwrap(function)
     warnings.warn_explicit(
         text,
         category,
         filename=file_of(function),
-        lineno=code.co_firstlineno,
+        lineno=function.__code__.co_firstlineno,
         module=function.__module__,
         registry=function.__globals__.setdefault("__warningregistry__", {}),
     )

@@ -48,7 +48,7 @@ fn with_digits(figure: &LimitFigure) -> String {
     let measured = figure.measured.filter(|_| figure.certain.is_some());
     measured.map_or_else(String::new, |(amount, _)| {
         let amount = limit_amount(&figure.limit, amount);
-        format!("; {amount} with last digits")
+        format!("; {amount} with rounding")
     })
 }
 
@@ -160,11 +160,11 @@ mod tests {
         assert_eq!(
             exceeded(&limits, ""),
             "  X jerk           80.00 mm/s³ of 60.00 mm/s³ EXCEEDED, at C = 1.00 deg, X = 2.5000 mm; \
-             156.0 mm/s³ with last digits\n"
+             156.0 mm/s³ with rounding\n"
         );
         assert_eq!(
             by_digits(&limits, ""),
-            "  X jerk               0 mm/s³ of 60.00 mm/s³ holds; 156.0 mm/s³ with last digits\n"
+            "  X jerk               0 mm/s³ of 60.00 mm/s³ holds; 156.0 mm/s³ with rounding\n"
         );
         let rpm = unit::rpm::PER.recip();
         let text = line_of(Axis::C, Derivative::Velocity, 10.0 * rpm, 20.0 * rpm);

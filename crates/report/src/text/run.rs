@@ -88,11 +88,13 @@ pub fn verified_figures(program: &ProgramReport, tolerance: &Tolerances) -> Stri
     let is_judged = program.within_coverage.is_some();
     let uncut = program.coverage.filter(|_| is_judged);
     let uncut = uncut.map(|uncut| figure("coverage", uncut.largest(), tolerance.most_material()));
+    let servo = program.servo_error;
+    let servo = servo.map(|error| figure("servo error", error, tolerance.servo));
     let form = program.form_error;
     let form = form.map(|form| figure("form error", form, tolerance.form));
     let clearance = program.lead_clearance;
     let clearance = clearance.map(|height| figure("lead clearance", height, None));
-    let all = [Some(interpolation), residual, uncut, form, clearance];
+    let all = [Some(interpolation), residual, uncut, servo, form, clearance];
     all.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
@@ -151,9 +153,11 @@ fn passes(program: &ProgramReport, tolerance: &Tolerances, of_path: &Verdict) ->
         (program.within_coverage, of_path.coverage),
     ];
     if verdicts.contains(&(Some(false), Some(true))) {
-        let straight = program.straight_lines.as_ref();
-        let help = match straight.is_some_and(|straight| straight.per_segment > 1.0) {
-            true => "a smaller `chord_share`, so that more lines come nearer to the path",
+        let help = match program.straight_lines.is_some() {
+            true => {
+                "a smaller `chord_share`, so that more lines come nearer to the path, or more \
+                 `position_decimals`"
+            }
             false => "more `position_decimals`",
         };
         let text_of_help = format!("the path holds what the program exceeds: give the post {help}");

@@ -21,7 +21,6 @@ use crate::worst_first::WorstFirst;
 
 use cell::{Stretch, distance};
 use distances::{Kinship, Neighbourhood, Shift};
-pub(crate) use row::ROUNDING;
 pub use row::{Column, HalfDigits, PathRow};
 
 /// If more than this part of a file's rows are not those of the recipe's path, then the file is

@@ -56,7 +56,7 @@ pub struct HalfDigits {
 }
 
 /// Rounding of doubles, as a part of the number: a file in degrees turns C into degrees and back.
-pub(crate) const ROUNDING: f64 = 8.0 * f64::EPSILON;
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Whether two numbers are the same, to half a digit and rounding.
 fn is_same(one: f64, other: f64, half_digit: f64) -> bool {
