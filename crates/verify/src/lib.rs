@@ -12,6 +12,7 @@ mod best_sphere;
 mod between_instants;
 mod block_playback;
 mod bracket;
+mod certain_meter;
 mod certain_motion;
 mod closing;
 mod comparison;
@@ -58,7 +59,8 @@ pub use anomalies::{Anomaly, AnomalyDetector, AnomalyKind};
 pub use axes::{AxesMotion, AxisMotion, Peak};
 pub use best_sphere::BestSphere;
 pub use block_playback::BlockPlayback;
-pub use certain_motion::{CertainBlock, CertainMeter, CertainMotion, Rounding};
+pub use certain_meter::{CertainBlock, CertainMeter};
+pub use certain_motion::{CertainMotion, Rounding};
 pub use comparison::{
     Column, ComparisonFigures, HalfDigits, PathRow, RowAnomaly, RowComparison, RowFault,
 };

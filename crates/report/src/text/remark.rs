@@ -52,9 +52,9 @@ pub fn sentence(remark: &Remark) -> String {
             let [edge, meeting, included_angle] =
                 [edge, meeting, included_angle].map(|angle| angle / DEG);
             format!(
-                "the edge ends {edge:.3} deg beyond the steepest contact, and passes meet about \
-                 {meeting:.3} deg beyond theirs: cusps are higher there, and a pass that ends at the rim \
-                 may leave it uncut; an included angle of {included_angle:.2} deg reaches so far"
+                "the edge ends {edge:.3} deg beyond the steepest contact, and neighbouring passes meet \
+                 {meeting:.3} deg beyond their contacts: cusps are higher there, and the rim may stay \
+                 uncut; an included angle of {included_angle:.2} deg is enough"
             )
         }
         Remark::LongCut { cutting_time } => {
