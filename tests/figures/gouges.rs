@@ -116,7 +116,7 @@ impl Case {
             spindle_speed: 50.0,
             machine: Machine::default(),
         };
-        prepare(chain, spec).map_err(Box::new)
+        prepare(&chain.locus_links(), spec).map_err(Box::new)
     }
 }
 

@@ -156,6 +156,10 @@ fn a_nose_that_fits_everywhere_is_measured_as_in_its_run() {
         same(&report, &summary, pointer);
     }
     assert_eq!(report["unreached"], summary["unreached"]);
+    // What is measured depends on the surface, the compensator and the tool alone.
+    let elsewhere = "verify recipe.toml out/toolpath.csv --format json --set feed.use=elsewhere";
+    let report = bench.line(elsewhere).ends(0).json();
+    same(&report, &summary, "/form/pv_nm");
 }
 
 /// Where a hollow part slopes up to its rim all around, X ends inside of the rim that the contact

@@ -57,7 +57,7 @@ fn check_points(chain: &Chain, preparation: &Preparation, points: &[(f64, f64)])
     answer.map_err(|error| attribute(chain, error))?;
     let feet = centres.foot.iter().zip(points);
     if let Some((_, (theta, rho))) = feet.into_iter().find(|(foot, _)| !foot.is_finite()) {
-        return Err(no_contact(chain, &task.tool, *theta, *rho));
+        return Err(no_contact(&chain.locus_links(), &task.tool, *theta, *rho));
     }
     let cut = Cut {
         surface: locus.surface(),

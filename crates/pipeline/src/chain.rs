@@ -71,6 +71,15 @@ impl<T: ?Sized> Clone for Link<T> {
     }
 }
 
+/// The two strategies that decide where a tool touches a part, and where its nose centre goes.
+#[derive(Clone)]
+pub struct LocusLinks {
+    /// The surface to cut.
+    pub surface: Link<dyn SurfaceModel>,
+    /// The compensator, which gives the nose centre.
+    pub compensator: Link<dyn Compensator>,
+}
+
 /// The strategies of a task, one in each slot.
 #[derive(Clone)]
 pub struct Chain {
@@ -86,4 +95,14 @@ pub struct Chain {
     pub velocity: Link<dyn VelocitySolver>,
     /// The spindle strategy, which gives the spindle law.
     pub spindle: Link<dyn SpindleStrategy>,
+}
+
+impl Chain {
+    /// Those of its strategies that decide where a tool touches a part.
+    pub fn locus_links(&self) -> LocusLinks {
+        LocusLinks {
+            surface: self.surface.clone(),
+            compensator: self.compensator.clone(),
+        }
+    }
 }

@@ -4,7 +4,7 @@ use turnpath_core::{
     CentreBuffers, Locus, RadialRange, Scalar, StrategyError, Tool, ToolLocus, even_angles,
 };
 
-use crate::{Chain, PipelineError, Result};
+use crate::{LocusLinks, PipelineError, Result};
 
 /// Angles at which the contact is looked for beyond the rim and the hole.
 const RIM_ANGLES: usize = 720;
@@ -14,7 +14,7 @@ const REACH_POSITIONS: usize = 64;
 /// The radii of contact while ρ runs over `range`. Where ρ is the centre's X, the contact goes
 /// beyond that range on slopes.
 pub fn contact_range(
-    chain: &Chain,
+    links: &LocusLinks,
     locus: &ToolLocus,
     tool: &Tool,
     range: RadialRange,
@@ -28,10 +28,10 @@ pub fn contact_range(
         let mut centres = CentreBuffers::default();
         centres.resize(theta.len());
         let answer = locus.centre(&theta, &vec![rho; theta.len()], centres.as_centres());
-        answer.map_err(|error| chain.compensator.failed(format!("at ρ = {rho} mm"), error))?;
+        answer.map_err(|error| links.compensator.failed(format!("at ρ = {rho} mm"), error))?;
         for (foot, theta) in centres.foot.iter().zip(&theta) {
             if !foot.is_finite() {
-                return Err(no_contact(chain, tool, *theta, rho));
+                return Err(no_contact(links, tool, *theta, rho));
             }
             contact.inner = contact.inner.min(foot.abs());
             contact.outer = contact.outer.max(foot.abs());
@@ -45,7 +45,7 @@ pub fn contact_range(
 
 /// The error where a compensator finds no contact. It is the recipe's fault if the surface ends
 /// within the nose's reach, and the compensator's if it does not.
-pub fn no_contact(chain: &Chain, tool: &Tool, theta: f64, rho: f64) -> PipelineError {
+pub fn no_contact(links: &LocusLinks, tool: &Tool, theta: f64, rho: f64) -> PipelineError {
     let context = format!(
         "at C = {:.1} deg, ρ = {rho:.4} mm",
         theta / turnpath_core::DEG
@@ -56,9 +56,9 @@ pub fn no_contact(chain: &Chain, tool: &Tool, theta: f64, rho: f64) -> PipelineE
         .map(|i| rho + reach * (2.0 * i as f64 / REACH_POSITIONS as f64 - 1.0));
     let (x, y): (Vec<f64>, Vec<f64>) = feet.map(|foot| (foot * c, foot * s)).unzip();
     let mut z = vec![f64::NAN; x.len()];
-    match chain.surface.strategy.heights(&x, &y, &mut z) {
-        Err(error) => chain.surface.failed(context, error),
-        Ok(()) if z.iter().all(|z| z.is_finite()) => chain
+    match links.surface.strategy.heights(&x, &y, &mut z) {
+        Err(error) => links.surface.failed(context, error),
+        Ok(()) if z.iter().all(|z| z.is_finite()) => links
             .compensator
             .bad_answer(format!("no number for the contact {context}")),
         Ok(()) => PipelineError::NoSurface(StrategyError::failed(format!(

@@ -53,7 +53,12 @@ pub fn data_reach(chain: &Chain, preparation: &Preparation) -> Result<Option<Dat
     let step = (part.outer - part.inner) / RINGS as f64;
     let rings = (0..=RINGS).map(|ring| part.inner + step * ring as f64);
     let on_part = farthest(chain, rings)?;
-    let contact = contact_range(chain, &preparation.locus, &task.tool, task.range)?;
+    let contact = contact_range(
+        &chain.locus_links(),
+        &preparation.locus,
+        &task.tool,
+        task.range,
+    )?;
     let ends = [contact.inner, contact.outer].into_iter();
     let beyond = ends.filter(|radius| *radius < part.inner || *radius > part.outer);
     let overrun = farthest(chain, beyond)?;

@@ -11,7 +11,7 @@ use turnpath_core::{
 use crate::attributed::{NamedCompensator, NamedSurface};
 use crate::contact::contact_range;
 use crate::range::range;
-use crate::{Chain, PipelineError, Result};
+use crate::{LocusLinks, PipelineError, Result};
 
 /// The largest nose that is tried, in aperture radii. Beyond it the edge is straight for all that
 /// it does to the part.
@@ -40,7 +40,7 @@ impl KnownCurvature {
 
 /// A part, its surface and its compensator, on which noses of any radius are tried.
 pub struct Fit<'a> {
-    pub chain: &'a Chain,
+    pub links: &'a LocusLinks,
     pub surface: Arc<dyn SurfaceModel>,
     pub compensator: Arc<dyn Compensator>,
     pub part: Part,
@@ -49,12 +49,12 @@ pub struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// The chain's surface and compensator on a part.
-    pub fn new(chain: &'a Chain, part: Part, tool: Tool, overrun: Overrun) -> Self {
+    /// A surface and a compensator on a part.
+    pub fn new(links: &'a LocusLinks, part: Part, tool: Tool, overrun: Overrun) -> Self {
         Self {
-            chain,
-            surface: Arc::new(NamedSurface::new(&chain.surface)),
-            compensator: Arc::new(NamedCompensator::new(&chain.compensator)),
+            links,
+            surface: Arc::new(NamedSurface::new(&links.surface)),
+            compensator: Arc::new(NamedCompensator::new(&links.compensator)),
             part,
             tool,
             overrun,
@@ -97,7 +97,7 @@ impl<'a> Fit<'a> {
     /// the tool fits there.
     fn largest_curvature(&self, tool: Tool, known: &mut KnownCurvature) -> Result<Extreme> {
         let locus = ToolLocus::new(self.surface.clone(), self.compensator.clone(), tool);
-        let region = contact_range(self.chain, &locus, &tool, self.range(tool)?)?;
+        let region = contact_range(self.links, &locus, &tool, self.range(tool)?)?;
         if let Some(too_hollow) = known.place_that_refuses(tool.nose_radius, region) {
             return Ok(too_hollow);
         }
@@ -153,13 +153,13 @@ impl<'a> Fit<'a> {
     fn failed_check(&self, error: StrategyError) -> PipelineError {
         match error {
             StrategyError::Failed(_) => PipelineError::NoSurface(error),
-            other => (self.chain.compensator).failed("in the interference check", other),
+            other => (self.links.compensator).failed("in the interference check", other),
         }
     }
 
     fn no_numbers(&self, found: impl std::fmt::Debug) -> PipelineError {
         let what = format!("no numbers in its interference check: {found:?}");
-        self.chain.compensator.bad_answer(what)
+        self.links.compensator.bad_answer(what)
     }
 }
 

@@ -11,6 +11,7 @@ use crate::{Chain, Preparation, Result};
 /// When a strategy fails.
 pub fn largest_nose(chain: &Chain, preparation: &Preparation) -> Result<LargestNose> {
     let task = &preparation.task;
-    let fit = Fit::new(chain, task.part, task.tool, preparation.overrun);
+    let links = chain.locus_links();
+    let fit = Fit::new(&links, task.part, task.tool, preparation.overrun);
     fit.largest_nose(preparation.curvature_on_part)
 }

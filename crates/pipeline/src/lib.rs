@@ -56,7 +56,7 @@ mod window;
 
 pub use aim::AIM;
 pub use attributed::NamedSurface;
-pub use chain::{Chain, Link};
+pub use chain::{Chain, Link, LocusLinks};
 pub use composite::{PlacedSurface, PoseError, PosedSurface, SurfaceSum};
 pub use data_reach::{DataReach, Farthest, ON_DATA, data_reach};
 pub use error::{PipelineError, Result, RunError};

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Part, Scalar, StrategyError, even_angles};
+use turnpath_core::{Part, Scalar, StrategyError, SurfaceModel, even_angles};
 
-use crate::{Chain, PipelineError, Result};
+use crate::{Link, PipelineError, Result};
 
 /// Rings of the part at which the surface is looked for, besides the inner one.
 const RINGS: usize = 8;
@@ -41,11 +41,11 @@ impl Places {
 
 /// Refuses a surface that has no height anywhere on the part's inner ring, or one that no part has. A
 /// surface without any height on the part is the plugin's fault, not the recipe's.
-pub fn check_heights(chain: &Chain, part: &Part) -> Result<()> {
+pub fn check_heights(surface: &Link<dyn SurfaceModel>, part: &Part) -> Result<()> {
     let Places { x, y } = Places::on(part, RINGS, RING_POINTS);
     let mut z = vec![f64::NAN; x.len()];
-    let answer = chain.surface.strategy.heights(&x, &y, &mut z);
-    answer.map_err(|error| chain.surface.failed("on the part", error))?;
+    let answer = surface.strategy.heights(&x, &y, &mut z);
+    answer.map_err(|error| surface.failed("on the part", error))?;
     let place = |at: usize| format!("x = {:.4} mm, y = {:.4} mm", x[at], y[at]);
     if let Some(at) = z
         .iter()
@@ -70,12 +70,11 @@ pub fn check_heights(chain: &Chain, part: &Part) -> Result<()> {
         "no number for z anywhere from radius {} mm to the rim",
         part.inner_radius
     );
-    Err(chain.surface.bad_answer(what))
+    Err(surface.bad_answer(what))
 }
 
 /// Refuses a map of which no cell lies on the part: all of the part would be continued.
-pub fn check_data(chain: &Chain, part: &Part) -> Result<()> {
-    let surface = &chain.surface;
+pub fn check_data(surface: &Link<dyn SurfaceModel>, part: &Part) -> Result<()> {
     let failed = |error| surface.failed("for the distance from its data", error);
     if surface.strategy.data().map_err(failed)?.is_none() {
         return Ok(());

@@ -10,7 +10,7 @@ use crate::job_spec::JobSpec;
 use crate::on_part::{check_data, check_heights};
 use crate::size::check_part;
 use crate::walls::check_walls;
-use crate::{Chain, PipelineError, Result};
+use crate::{LocusLinks, PipelineError, Result};
 
 /// A task whose tool fits its part.
 #[derive(Clone)]
@@ -34,32 +34,32 @@ pub struct Preparation {
 /// # Errors
 /// When the tool does not fit, when the surface has no height somewhere on the part or on its
 /// overrun, when its map lies elsewhere, when the height jumps, or when a strategy fails.
-pub fn prepare(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
+pub fn prepare(links: &LocusLinks, spec: JobSpec) -> Result<Preparation> {
     check_part(&spec)?;
     if spec.tool.misfit == Misfit::Refuse {
-        return prepare_tool(chain, spec);
+        return prepare_tool(links, spec);
     }
     // Where the whole tool fits, the misfit setting changes no touch, and the edge needs no scan.
     let mut strict = spec.clone();
     strict.tool.misfit = Misfit::Refuse;
-    match prepare_tool(chain, strict) {
-        Err(PipelineError::Gouge { .. }) => prepare_tool(chain, spec),
+    match prepare_tool(links, strict) {
+        Err(PipelineError::Gouge { .. }) => prepare_tool(links, spec),
         preparation => preparation,
     }
 }
 
 /// The preparation for a tool as it is given.
-fn prepare_tool(chain: &Chain, spec: JobSpec) -> Result<Preparation> {
+fn prepare_tool(links: &LocusLinks, spec: JobSpec) -> Result<Preparation> {
     let (part, tool, overrun) = (spec.part, spec.tool, spec.overrun);
-    let fit = Fit::new(chain, part, tool, overrun);
+    let fit = Fit::new(links, part, tool, overrun);
     let (surface, compensator) = (fit.surface.clone(), fit.compensator.clone());
     let locus = ToolLocus::new(surface.clone(), compensator.clone(), tool);
-    check_heights(chain, &part)?;
-    check_data(chain, &part)?;
-    check_walls(chain, &part)?;
+    check_heights(&links.surface, &part)?;
+    check_data(&links.surface, &part)?;
+    check_walls(&links.surface, &part)?;
     let on_path = || {
         let range = fit.range(tool)?;
-        let region = contact_range(chain, &locus, &tool, range)?;
+        let region = contact_range(links, &locus, &tool, range)?;
         Ok((range, fit.interference(tool, region)?))
     };
     let (on_part, on_path) = rayon::join(|| fit.interference(tool, fit.whole_part()), on_path);

@@ -4,9 +4,9 @@
 //! a rest that falls with the cube of the way, and at a crease with the way itself. At a wall the
 //! rest stays, however short the way is: halving a stretch between two points closes in on it.
 
-use turnpath_core::{Gradients, Part, Scalar, StrategyError, even_angles};
+use turnpath_core::{Gradients, Part, Scalar, StrategyError, SurfaceModel, even_angles};
 
-use crate::{Chain, PipelineError, Result};
+use crate::{Link, PipelineError, Result};
 
 /// Circles about the axis on which walls are looked for, besides the innermost one. A wall that crosses no
 /// circle and no radius is not found.
@@ -29,14 +29,14 @@ struct Point {
 }
 
 /// Refuses a surface whose height jumps on the part.
-pub fn check_walls(chain: &Chain, part: &Part) -> Result<()> {
-    let mut stretches = stretches(chain, part)?;
+pub fn check_walls(surface: &Link<dyn SurfaceModel>, part: &Part) -> Result<()> {
+    let mut stretches = stretches(surface, part)?;
     for _ in 0..HALVINGS {
         if stretches.is_empty() {
             return Ok(());
         }
         let middles: Vec<[f64; 2]> = stretches.iter().map(middle).collect();
-        let middles = points(chain, &middles)?;
+        let middles = points(surface, &middles)?;
         for (stretch, middle) in stretches.iter_mut().zip(middles) {
             let [from, to] = *stretch;
             let [first, second] = [[from, middle], [middle, to]];
@@ -56,7 +56,7 @@ pub fn check_walls(chain: &Chain, part: &Part) -> Result<()> {
 
 /// The stretches along the rings and along the radii whose height grows by more or less than their
 /// slopes say.
-fn stretches(chain: &Chain, part: &Part) -> Result<Vec<[Point; 2]>> {
+fn stretches(surface: &Link<dyn SurfaceModel>, part: &Part) -> Result<Vec<[Point; 2]>> {
     let turned: Vec<(f64, f64)> = even_angles(ANGLES).map(Scalar::sin_cos).collect();
     let width = part.aperture_radius - part.inner_radius;
     let mut found = Vec::new();
@@ -67,7 +67,7 @@ fn stretches(chain: &Chain, part: &Part) -> Result<Vec<[Point; 2]>> {
             .iter()
             .map(|(sin, cos)| [radius * cos, radius * sin])
             .collect();
-        let ring = points(chain, &places)?;
+        let ring = points(surface, &places)?;
         let next = ring.iter().cycle().skip(1);
         found.extend(ring.iter().zip(next).map(|(one, other)| [*one, *other]));
         if let Some(inner) = before {
@@ -79,7 +79,7 @@ fn stretches(chain: &Chain, part: &Part) -> Result<Vec<[Point; 2]>> {
     Ok(found)
 }
 
-fn points(chain: &Chain, places: &[[f64; 2]]) -> Result<Vec<Point>> {
+fn points(surface: &Link<dyn SurfaceModel>, places: &[[f64; 2]]) -> Result<Vec<Point>> {
     let (x, y): (Vec<f64>, Vec<f64>) = places.iter().map(|[x, y]| (*x, *y)).unzip();
     let [mut z, mut zx, mut zy] = [(); 3].map(|()| vec![f64::NAN; x.len()]);
     let out = Gradients {
@@ -87,8 +87,8 @@ fn points(chain: &Chain, places: &[[f64; 2]]) -> Result<Vec<Point>> {
         zx: &mut zx,
         zy: &mut zy,
     };
-    let answer = chain.surface.strategy.gradient(&x, &y, out);
-    answer.map_err(|error| chain.surface.failed("on the part", error))?;
+    let answer = surface.strategy.gradient(&x, &y, out);
+    answer.map_err(|error| surface.failed("on the part", error))?;
     let slopes = zx.into_iter().zip(zy);
     let heights = z.into_iter().zip(slopes);
     let all = places.iter().zip(heights);

@@ -50,7 +50,7 @@ impl TrialChain {
             spindle_speed: recipe.spindle_speed,
             machine: recipe.machine,
         };
-        let preparation = prepare(&chain, spec).map_err(FaultKind::Path)?;
+        let preparation = prepare(&chain.locus_links(), spec).map_err(FaultKind::Path)?;
         Ok(Self { chain, preparation })
     }
 

@@ -3,9 +3,7 @@
 use turnpath_core::Tolerance;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Catalogue;
-use turnpath_pipeline::{
-    Chain, JobSpec, LeadLimits, LeadSettings, PathOptions, Preparation, prepare,
-};
+use turnpath_pipeline::{Chain, LeadLimits, LeadSettings, PathOptions, Preparation, prepare};
 use turnpath_post::ProgramError;
 use turnpath_recipe::{DataFormat, Diagnostics, Recipe};
 use turnpath_report::Overrun;
@@ -16,6 +14,7 @@ use crate::diagnosis::{needs_exact_rates, not_carried};
 use crate::error::Error;
 use crate::figures::form_scope;
 use crate::gap::of_preparation;
+use crate::job_spec::job_spec;
 use crate::named_files::UsedFile;
 use crate::posts::NotCarried;
 use crate::program::{Program, programs};
@@ -69,16 +68,7 @@ impl Job {
         let (chain, inexact_surfaces) = chain(&recipe, catalogue, files)?;
         let data_files = used_files(&recipe, catalogue, files)?;
         refuse_inexact_rates(&recipe, &chain)?;
-        let spec = JobSpec {
-            part: recipe.part,
-            tool: recipe.tool,
-            tolerance: recipe.tolerance,
-            overrun: recipe.overrun,
-            direction: recipe.direction,
-            spindle_speed: recipe.spindle_speed,
-            machine: recipe.machine,
-        };
-        let preparation = prepare(&chain, spec)
+        let preparation = prepare(&chain.locus_links(), job_spec(&recipe))
             .map_err(|error| of_preparation(&recipe, &chain.surface, error))?;
         let programs = programs(&recipe, chain.compensator.strategy.compensates_nose())?;
         let job = Self {

@@ -36,6 +36,7 @@ mod gap;
 mod import;
 mod input_files;
 mod job;
+mod job_spec;
 mod memory;
 mod meters;
 mod named_files;

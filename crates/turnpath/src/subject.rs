@@ -1,40 +1,48 @@
 //! What a file of a tool path is measured against.
 
-use std::sync::Arc;
-
-use turnpath_core::{Misfit, SurfaceModel, Tool};
+use turnpath_core::{Misfit, Tool};
 use turnpath_host::Catalogue;
+use turnpath_pipeline::{LocusLinks, prepare};
 use turnpath_recipe::Recipe;
 use turnpath_verify::Subject;
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
-use crate::job::Job;
-use crate::strategies;
+use crate::job_spec::job_spec;
+use crate::strategies::compensator;
+use crate::surface::surface;
 
-/// The subject of a recipe with its surface.
+/// The surface and the compensator of a recipe.
 ///
 /// # Errors
-/// When the compensator is not there, or fails.
-pub fn subject(
-    (recipe, catalogue, files): (&Recipe, &Catalogue, &DataFiles),
-    surface: Arc<dyn SurfaceModel>,
-) -> Result<Subject, Error> {
-    let compensator = strategies::compensator(recipe, catalogue, files)?.strategy;
-    Ok(Subject {
-        surface,
-        part: recipe.part,
-        tool: tool(recipe, catalogue, files),
-        compensates_nose: compensator.compensates_nose(),
+/// When one of them is not there or refuses its parameters.
+pub fn locus_links(
+    recipe: &Recipe,
+    catalogue: &Catalogue,
+    files: &DataFiles,
+) -> Result<LocusLinks, Error> {
+    Ok(LocusLinks {
+        surface: surface(recipe, catalogue, files)?,
+        compensator: compensator(recipe, catalogue, files)?,
     })
+}
+
+/// The subject of a recipe, with its surface and its compensator.
+pub fn subject(recipe: &Recipe, links: &LocusLinks) -> Subject {
+    Subject {
+        surface: links.surface.strategy.clone(),
+        part: recipe.part,
+        tool: tool(recipe, links),
+        compensates_nose: links.compensator.strategy.compensates_nose(),
+    }
 }
 
 /// The tool as a run of the recipe takes it: where the whole tool fits, nothing has to be left, though the recipe
 /// would allow it. A recipe that cannot be run says itself what its tool does.
-fn tool(recipe: &Recipe, catalogue: &Catalogue, files: &DataFiles) -> Tool {
+fn tool(recipe: &Recipe, links: &LocusLinks) -> Tool {
     if recipe.tool.misfit == Misfit::Refuse {
         return recipe.tool;
     }
-    let job = Job::with_files(recipe.clone(), catalogue, files);
-    job.map_or(recipe.tool, |job| job.preparation.task.tool)
+    let preparation = prepare(links, job_spec(recipe));
+    preparation.map_or(recipe.tool, |preparation| preparation.task.tool)
 }

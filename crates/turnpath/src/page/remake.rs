@@ -22,9 +22,8 @@ use crate::meters::{PathMeters, measure};
 use crate::path_file::SourceFile;
 use crate::result_check::read_result;
 use crate::strategies;
-use crate::subject::subject;
+use crate::subject::{locus_links, subject};
 use crate::summary::{ABLATION, MOST_BYTES, PAGE, SUMMARY};
-use crate::surface::surface;
 
 /// Writes the page of a result into its folder, and the figures for papers; gives their paths, the page
 /// first. What shows the path is measured on the path's file.
@@ -93,8 +92,8 @@ fn page_again(
     let report = read_result(&request.folder)?;
     drawings.leave_result(&request.folder, &report)?;
     let files = DataFiles::default();
-    let wanted = surface(recipe, catalogue, &files)?;
-    let subject = subject((recipe, catalogue, &files), wanted.strategy.clone())?;
+    let links = locus_links(recipe, catalogue, &files)?;
+    let subject = subject(recipe, &links);
     let sketch = match path_file(&request.folder, &report, recipe, &subject)? {
         None => None,
         Some(file) => {
@@ -114,7 +113,7 @@ fn page_again(
         None => return Err(no_path(request)),
     };
     let made_by = (recipe, catalogue);
-    let page = page_of_run(made_by, wanted.strategy.as_ref(), &report, sketch)?;
+    let page = page_of_run(made_by, links.surface.strategy.as_ref(), &report, sketch)?;
     Ok((page, drafts))
 }
 

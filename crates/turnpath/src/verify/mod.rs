@@ -32,8 +32,7 @@ use crate::meters::{PathMeters, measure};
 use crate::plots::{PlayedPath, PlotRequest, Plots, draw, make_folder};
 use crate::result_check::result_check;
 use crate::strategies;
-use crate::subject::subject;
-use crate::surface::surface;
+use crate::subject::{locus_links, subject};
 
 use crate::path_file::SourceFile;
 use remake::{Comparison, compare};
@@ -99,17 +98,15 @@ struct Target<'a> {
 impl<'a> Target<'a> {
     fn new(recipe: &'a Recipe, catalogue: &'a Catalogue) -> Result<Self, Error> {
         let files = DataFiles::default();
-        let surface = surface(recipe, catalogue, &files)?.strategy;
-        let compensator = strategies::compensator(recipe, catalogue, &files)?.strategy;
+        let links = locus_links(recipe, catalogue, &files)?;
         let velocity = strategies::velocity(recipe, catalogue, &files)?.strategy;
-        let subject = subject((recipe, catalogue, &files), surface)?;
         Ok(Self {
             recipe,
             catalogue,
             data_files: files,
-            subject,
+            subject: subject(recipe, &links),
             shape: velocity.segments(),
-            radial: compensator.radial(),
+            radial: links.compensator.strategy.radial(),
         })
     }
 

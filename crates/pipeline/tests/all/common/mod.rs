@@ -327,14 +327,14 @@ impl Task {
         observer: &dyn Observer,
     ) -> std::result::Result<Outcome, RunError<S::Error>> {
         let chain = self.chain();
-        let preparation = prepare(&chain, self.spec())?;
+        let preparation = prepare(&chain.locus_links(), self.spec())?;
         run(&chain, &preparation, self.options(), sink, observer)
     }
 
     /// The path, made without measuring it.
     pub fn unmeasured(&self) -> PathBlock {
         let chain = self.chain();
-        let preparation = prepare(&chain, self.spec()).expect("a tool that fits");
+        let preparation = prepare(&chain.locus_links(), self.spec()).expect("a tool that fits");
         let mut sink = MemorySink::default();
         make_unmeasured(
             &chain,
@@ -350,13 +350,13 @@ impl Task {
     /// The estimate of the path, and a sample of it.
     pub fn sample(&self) -> (Estimate, PathSample) {
         let chain = self.chain();
-        let preparation = prepare(&chain, self.spec()).expect("a tool that fits");
+        let preparation = prepare(&chain.locus_links(), self.spec()).expect("a tool that fits");
         sample_path(&chain, &preparation, self.options()).expect("a sample")
     }
 
     /// The first touch of the task's tool.
     pub fn touch(&self) -> FirstTouch {
-        let preparation = prepare(&self.chain(), self.spec());
+        let preparation = prepare(&self.chain().locus_links(), self.spec());
         preparation.expect("a tool that fits").touch
     }
 
