@@ -59,6 +59,30 @@ fn coarse_digits_move_passes_and_the_run_says_so() {
     assert!(program.get("residual").is_none(), "{program}");
 }
 
+/// Velocities in whole mm/min bend the passes by tens of nanometres, where X moves within the turn.
+#[test]
+fn coarse_velocities_move_passes_and_the_run_says_so() {
+    let moved = changed(SADDLE, "use = \"z-direction\"", "use = \"normal\"");
+    let moved = changed(
+        &moved,
+        "interpolation = \"100 nm\"",
+        "interpolation = \"500 nm\"",
+    );
+    let post = "[output]\nposts = [\"pmac-pvt\"]\n\n[output.pmac-pvt]\nvelocity_decimals = 0\n";
+    let (bench, program) = program_of(&format!("{moved}\n{post}"), 1);
+    assert_eq!(program["within_interpolation"], true);
+    assert_eq!(program["within_residual"], false);
+    let figures = [(&program["residual"]["max_nm"], "/residual/max_nm")];
+    agrees(&bench, "recipe.pmc", 1, &figures);
+    let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
+    assert_eq!(summary["within"]["residual"], true);
+    let said = bench.line("run recipe.toml -o out").ends(1);
+    assert!(said.stdout.contains("or `velocity_decimals`"), "{said}");
+    let fine = "run recipe.toml -o fine --format json --set output.pmac-pvt.velocity_decimals=6";
+    let program = bench.line(fine).ends(0).json()["programs"][0].clone();
+    assert!(program.get("residual").is_none(), "{program}");
+}
+
 /// Servos follow straight lines less well than the cubics that these stand for.
 #[test]
 fn servos_are_judged_on_straight_lines() {

@@ -239,6 +239,23 @@ impl ProgramFormat {
         Some(0.5 * part * size)
     }
 
+    /// The most by which its digits move what is played of X in the cut, mm. X lies within `farthest`, and no segment
+    /// takes longer than `longest_time`, s. Velocities that are off by half a digit at both ends of a cubic move its
+    /// middle by a quarter of what half a digit goes in its time.
+    pub fn moves_by(&self, farthest: f64, longest_time: f64) -> f64 {
+        let one = |decimals: u32| 1.0 / 10_u64.pow(decimals) as f64;
+        let [_, x, _] = self.position_rounding(false);
+        let of_positions = x * one(self.position_decimals);
+        let of_controller = self.held_rounding(farthest).unwrap_or(0.0);
+        let of_velocities = match self.shape() {
+            SegmentShape::Cubic => {
+                0.125 * one(self.velocity_decimals) / self.velocity_time() * longest_time
+            }
+            SegmentShape::Linear => 0.0,
+        };
+        of_positions + of_controller + of_velocities
+    }
+
     /// 1, or −1 if the program's C runs against the path's.
     pub fn c_sign(&self) -> f64 {
         if self.c_reversed { -1.0 } else { 1.0 }

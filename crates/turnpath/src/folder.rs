@@ -255,6 +255,7 @@ impl<'a> FolderSink<'a> {
         let touch = job.preparation.touch.clone();
         let carried = CarriedPath {
             error: outcome.figures.playback.max(),
+            longest_time: outcome.figures.playback.longest_time,
             shape: job.shape(),
             residual: job.preparation.task.tolerance.residual,
         };

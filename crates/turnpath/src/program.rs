@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use turnpath_core::Params;
 use turnpath_core::toolpath::{SectionBlock, SegmentShape};
+use turnpath_core::{Params, Part};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Leads, Observer, Outcome, Stage};
 use turnpath_post::{
@@ -23,8 +23,8 @@ use crate::figures::{coverage, form_error, residual, tolerances};
 use crate::meters::{BLOCK_ROWS, ProgramMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
 
-/// The part of the residual tolerance that half of a last digit of positions may be, so that the passes of a program
-/// of cubics count as those of its path. A higher one would miss what digits do to cusps; with a lower one, programs
+/// The part of the residual tolerance by which digits may move a program, so that the passes of a program of cubics
+/// count as those of its path. A higher one would miss what digits do to cusps; with a lower one, programs
 /// of seven decimals would be measured too, which takes time and finds nothing.
 const COARSE_DIGITS: f64 = 0.01;
 
@@ -59,6 +59,8 @@ pub struct ProgramText<'a> {
 pub struct CarriedPath {
     /// Its largest interpolation error, mm.
     pub error: f64,
+    /// The time of its longest segment, s.
+    pub longest_time: f64,
     /// What is played between its control points.
     pub shape: SegmentShape,
     /// The residual tolerance that it was made for, mm.
@@ -241,11 +243,10 @@ impl Program {
 
     /// Whether the passes of the program may leave more than those of its path: straight lines in place of a path's
     /// cubics move them, and so do coarse digits.
-    fn moves_passes(&self, path: SegmentShape, residual: f64) -> bool {
+    fn moves_passes(&self, path: &CarriedPath, part: &Part) -> bool {
         let format = &self.layout.format;
-        let [_, x, _] = format.position_rounding(false);
-        let rounding = x / 10_u64.pow(format.position_decimals) as f64;
-        format.shape() != path || rounding > COARSE_DIGITS * residual
+        let moved = format.moves_by(part.aperture_radius, path.longest_time);
+        format.shape() != path.shape || moved > COARSE_DIGITS * path.residual
     }
 
     /// Measures the program on the text of its path, which `text` reads. What its passes leave is measured too, where
@@ -266,7 +267,7 @@ impl Program {
         let meters = ProgramMeters::new(recipe, touch).with_servo(recipe);
         let mut meters = meters.with_speed_steps(self.layout.post.c_is_even);
         let shape = self.layout.format.shape();
-        if self.moves_passes(path.shape, path.residual) {
+        if self.moves_passes(&path, &recipe.part) {
             meters = meters.with_passes(recipe);
         }
         let measured = measure(recipe, meters, shape, reader, observer)?;

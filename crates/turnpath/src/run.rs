@@ -158,6 +158,7 @@ impl Job {
             let touch = self.preparation.touch.clone();
             let carried = CarriedPath {
                 error: outcome.figures.playback.max(),
+                longest_time: outcome.figures.playback.longest_time,
                 shape: self.shape(),
                 residual: self.preparation.task.tolerance.residual,
             };

@@ -24,6 +24,8 @@ pub struct PlaybackFigures {
     pub at_x: f64,
     /// Time of the segment in which it is, s.
     pub segment_time: f64,
+    /// Time of the longest segment, s.
+    pub longest_time: f64,
     /// Time integral of the error's square, mm²·s.
     square: f64,
     /// Time measured, s.
@@ -68,6 +70,7 @@ impl PlaybackFigures {
     pub fn append(&mut self, next: &Self) {
         self.square += next.square;
         self.time += next.time;
+        self.longest_time = self.longest_time.max(next.longest_time);
         if !self.broken && (next.broken || next.extreme.abs() > self.extreme.abs()) {
             self.broken = next.broken;
             (self.extreme, self.at_c, self.at_x) = (next.extreme, next.at_c, next.at_x);
@@ -130,6 +133,7 @@ pub(crate) fn play_back(
             let duration = points.t[number + 1] - points.t[number];
             figures.square += square * duration / INSTANTS as f64;
             figures.time += duration;
+            figures.longest_time = figures.longest_time.max(duration);
             let worst = worst.or(corners.get(index).copied().flatten());
             figures.include(worst, || points.segment(number));
             seen(&SegmentPlayback {
