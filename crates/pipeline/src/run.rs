@@ -26,7 +26,7 @@ use crate::{Chain, PipelineError, Preparation, Result, RunError, schedule};
 /// Blocks that are made at a time for each thread: enough that the last one to end does not keep the others
 /// waiting for long, and few enough that what was measured on them is written down while it is in the
 /// cache and its memory is used again.
-const BLOCKS_A_THREAD: usize = 8;
+const BLOCKS_A_THREAD: usize = 4;
 /// Most blocks that are made at a time, so that a batch of large blocks (half a million nodes each) stays
 /// within some hundred megabytes.
 const LARGE_BATCH: usize = 64;

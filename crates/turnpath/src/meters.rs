@@ -1,5 +1,7 @@
 //! Measuring a path that is read from a file: its cut, its leads, and what stands out.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 use turnpath_core::StrategyError;
 use turnpath_core::toolpath::{PathBlock, Section, SegmentShape};
@@ -313,7 +315,7 @@ impl SectionFigures {
     }
 }
 
-/// Reads a path and measures it, in blocks, in parallel. The next blocks are read meanwhile.
+/// Reads a path and measures it, in blocks, in parallel. The next blocks are read meanwhile, until all are measured.
 pub fn measure<M: Meters>(
     recipe: &Recipe,
     mut meters: M,
@@ -322,10 +324,8 @@ pub fn measure<M: Meters>(
     observer: &dyn Observer,
 ) -> Result<M, Error> {
     let failed = |error: StrategyError| of_measure(recipe, error);
-    // Nothing is measured while the first block is read, and each time there are twice as many.
-    let mut most = 1;
-    let limit = BLOCKS.min(BLOCKS_A_THREAD * rayon::current_num_threads());
-    let mut blocks = next_blocks(reader, shape, most)?;
+    let most = BLOCKS.min(BLOCKS_A_THREAD * rayon::current_num_threads());
+    let mut blocks = next_blocks(reader, shape, 1, || true)?;
     loop {
         if observer.is_cancelled() {
             return Err(Error::Cancelled);
@@ -334,17 +334,22 @@ pub fn measure<M: Meters>(
             return Ok(meters);
         }
         let count = blocks.len() as u64;
-        most = (2 * most).min(limit);
         let starts: Vec<M::Start> = blocks
             .iter()
             .map(|(_, block)| meters.advance(block))
             .collect();
-        let of_block = &meters;
+        let (of_block, are_measured) = (&meters, AtomicBool::new(false));
         let measure_all = || -> Result<Vec<M::Block>, StrategyError> {
             let each = blocks.into_par_iter().zip(starts).with_max_len(1);
-            in_order(each.map(|((section, block), start)| of_block.measure(section, block, start)))
+            let measured = in_order(
+                each.map(|((section, block), start)| of_block.measure(section, block, start)),
+            );
+            are_measured.store(true, Ordering::Relaxed);
+            measured
         };
-        let (measured, next) = rayon::join(measure_all, || next_blocks(reader, shape, most));
+        let is_enough = || are_measured.load(Ordering::Relaxed);
+        let read = || next_blocks(reader, shape, most, is_enough);
+        let (measured, next) = rayon::join(measure_all, read);
         for block in measured.map_err(failed)? {
             meters.append(block).map_err(failed)?;
         }
@@ -353,16 +358,18 @@ pub fn measure<M: Meters>(
     }
 }
 
+/// The next blocks: at least one, if there is one, and `most` unless fewer are enough.
 fn next_blocks(
     reader: &mut dyn ReadPath,
     shape: SegmentShape,
     most: usize,
+    is_enough: impl Fn() -> bool,
 ) -> Result<Vec<(Section, PathBlock)>, Error> {
     let mut blocks = Vec::new();
-    while blocks.len() < most {
-        match reader.next_block(BLOCK_ROWS)? {
-            Some((section, block)) => blocks.push((section, PathBlock { shape, ..block })),
-            None => break,
+    while let Some((section, block)) = reader.next_block(BLOCK_ROWS)? {
+        blocks.push((section, PathBlock { shape, ..block }));
+        if blocks.len() == most || is_enough() {
+            break;
         }
     }
     Ok(blocks)
