@@ -409,7 +409,9 @@ fn complaints(seed: u64) -> Vec<String> {
     }
     // The check of a nose that fits names the same one.
     let fitting = case.prepare(&chain, nose_of(known * (1.0 - 3.0 * AGREEMENT)));
-    match fitting.and_then(|preparation| largest_nose(&chain, &preparation).map_err(Box::new)) {
+    match fitting
+        .and_then(|preparation| largest_nose(&chain.locus_links(), &preparation).map_err(Box::new))
+    {
         Ok(nose) if near(nose.radius) => {}
         Ok(nose) => say(format!("{known} mm fits, but {nose:?}")),
         Err(error) => say(format!("{known} mm fits, but {error:?}")),

@@ -59,7 +59,7 @@ fn coarse_digits_move_passes_and_the_run_says_so() {
     assert!(program.get("residual").is_none(), "{program}");
 }
 
-/// Velocities in whole mm/min bend the passes by tens of nanometres, where X moves within the turn.
+/// Velocities in whole mm/s move passes by up to 0.4 µm within segments, where X moves within the turn.
 #[test]
 fn coarse_velocities_move_passes_and_the_run_says_so() {
     let moved = changed(SADDLE, "use = \"z-direction\"", "use = \"normal\"");

@@ -156,7 +156,7 @@ fn a_nose_that_fits_everywhere_is_measured_as_in_its_run() {
         same(&report, &summary, pointer);
     }
     assert_eq!(report["unreached"], summary["unreached"]);
-    // What is measured depends on the surface, the compensator and the tool alone.
+    // The feed strategy need not be there.
     let elsewhere = "verify recipe.toml out/toolpath.csv --format json --set feed.use=elsewhere";
     let report = bench.line(elsewhere).ends(0).json();
     same(&report, &summary, "/form/pv_nm");

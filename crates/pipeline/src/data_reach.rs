@@ -1,9 +1,9 @@
 //! How far the part and its overrun leave the data that the surface was made from.
 
-use turnpath_core::{RadialRange, Scalar, SurfaceData, even_angles};
+use turnpath_core::{RadialRange, Scalar, SurfaceData, SurfaceModel, even_angles};
 
 use crate::contact::contact_range;
-use crate::{Chain, Preparation, Result};
+use crate::{Link, LocusLinks, Preparation, Result};
 
 /// Rings of the part that are looked at: what is missing on less than a hundredth of the diameter is
 /// filled as well as a grain of dust is.
@@ -40,8 +40,8 @@ pub struct DataReach {
 ///
 /// # Errors
 /// When a strategy fails.
-pub fn data_reach(chain: &Chain, preparation: &Preparation) -> Result<Option<DataReach>> {
-    let surface = &chain.surface;
+pub fn data_reach(links: &LocusLinks, preparation: &Preparation) -> Result<Option<DataReach>> {
+    let surface = &links.surface;
     let data = surface.strategy.data();
     let data = data.map_err(|error| surface.failed("for its data", error))?;
     let Some(data) = data else { return Ok(None) };
@@ -52,16 +52,11 @@ pub fn data_reach(chain: &Chain, preparation: &Preparation) -> Result<Option<Dat
     };
     let step = (part.outer - part.inner) / RINGS as f64;
     let rings = (0..=RINGS).map(|ring| part.inner + step * ring as f64);
-    let on_part = farthest(chain, rings)?;
-    let contact = contact_range(
-        &chain.locus_links(),
-        &preparation.locus,
-        &task.tool,
-        task.range,
-    )?;
+    let on_part = farthest(surface, rings)?;
+    let contact = contact_range(links, &preparation.locus, &task.tool, task.range)?;
     let ends = [contact.inner, contact.outer].into_iter();
     let beyond = ends.filter(|radius| *radius < part.inner || *radius > part.outer);
-    let overrun = farthest(chain, beyond)?;
+    let overrun = farthest(surface, beyond)?;
     let least = on_part.map_or(ON_DATA, |place| place.distance + ON_DATA);
     Ok(Some(DataReach {
         data,
@@ -71,7 +66,10 @@ pub fn data_reach(chain: &Chain, preparation: &Preparation) -> Result<Option<Dat
 }
 
 /// The place on some rings that lies farthest beyond the data, if one does.
-fn farthest(chain: &Chain, rings: impl Iterator<Item = f64>) -> Result<Option<Farthest>> {
+fn farthest(
+    surface: &Link<dyn SurfaceModel>,
+    rings: impl Iterator<Item = f64>,
+) -> Result<Option<Farthest>> {
     let turn: Vec<(f64, (f64, f64))> = even_angles(ANGLES)
         .map(|angle| (angle, Scalar::sin_cos(angle)))
         .collect();
@@ -80,9 +78,9 @@ fn farthest(chain: &Chain, rings: impl Iterator<Item = f64>) -> Result<Option<Fa
     for radius in rings {
         let places = turn.iter().map(|(_, (s, c))| (radius * c, radius * s));
         let (x, y): (Vec<f64>, Vec<f64>) = places.unzip();
-        let answer = chain.surface.strategy.beyond_data(&x, &y, &mut distances);
+        let answer = surface.strategy.beyond_data(&x, &y, &mut distances);
         let context = "for the distance from its data";
-        answer.map_err(|error| chain.surface.failed(context, error))?;
+        answer.map_err(|error| surface.failed(context, error))?;
         for (distance, (angle, _)) in distances.iter().zip(&turn) {
             if *distance > most.map_or(ON_DATA, |most| most.distance) {
                 most = Some(Farthest {

@@ -3,15 +3,14 @@
 use turnpath_core::largest_nose::LargestNose;
 
 use crate::fit::Fit;
-use crate::{Chain, Preparation, Result};
+use crate::{LocusLinks, Preparation, Result};
 
-/// The largest nose for the chain and the task, with what limits it.
+/// The largest nose for the strategies and the task, with what limits it.
 ///
 /// # Errors
 /// When a strategy fails.
-pub fn largest_nose(chain: &Chain, preparation: &Preparation) -> Result<LargestNose> {
+pub fn largest_nose(links: &LocusLinks, preparation: &Preparation) -> Result<LargestNose> {
     let task = &preparation.task;
-    let links = chain.locus_links();
-    let fit = Fit::new(&links, task.part, task.tool, preparation.overrun);
+    let fit = Fit::new(links, task.part, task.tool, preparation.overrun);
     fit.largest_nose(preparation.curvature_on_part)
 }

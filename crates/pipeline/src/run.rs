@@ -27,6 +27,8 @@ use crate::{Chain, PipelineError, Preparation, Result, RunError, schedule};
 /// waiting for long, and few enough that what was measured on them is written down while it is in the
 /// cache and its memory is used again.
 const BLOCKS_A_THREAD: usize = 4;
+/// The same where nodes are not held: with each batch, those of some blocks beside it are placed once more.
+const PLACED_BLOCKS_A_THREAD: usize = 8;
 /// Most blocks that are made at a time, so that a batch of large blocks (half a million nodes each) stays
 /// within some hundred megabytes.
 const LARGE_BATCH: usize = 64;
@@ -361,6 +363,10 @@ fn batch_size(plan: &Plan<'_>, nodes_per_revolution: f64) -> usize {
     let threads = rayon::current_num_threads();
     let points = BATCH_POINTS.min(POINTS_A_THREAD * threads as f64);
     let fitting = (points / per_block.max(1.0)) as usize;
-    let wanted = BLOCKS_A_THREAD * threads;
+    let of_thread = match plan.holds_nodes() {
+        true => BLOCKS_A_THREAD,
+        false => PLACED_BLOCKS_A_THREAD,
+    };
+    let wanted = of_thread * threads;
     fitting.clamp(1, wanted.min(LARGE_BATCH))
 }

@@ -4,6 +4,10 @@ use turnpath_core::toolpath::{Section, SegmentShape};
 
 use crate::part_name::PartNumbers;
 
+/// What velocities that are off at both ends move the middle of a cubic by, as a part of what such a velocity goes in
+/// its time.
+const MOVED_BY_VELOCITIES: f64 = 0.25;
+
 /// Degrees of a revolution.
 pub(crate) const TURN_DEG: i64 = 360;
 /// The beginning of the line after the path, in its comment.
@@ -239,21 +243,25 @@ impl ProgramFormat {
         Some(0.5 * part * size)
     }
 
-    /// The most by which its digits move what is played of X in the cut, mm. X lies within `farthest`, and no segment
-    /// takes longer than `longest_time`, s. Velocities that are off by half a digit at both ends of a cubic move its
-    /// middle by a quarter of what half a digit goes in its time.
-    pub fn moves_by(&self, farthest: f64, longest_time: f64) -> f64 {
-        let one = |decimals: u32| 1.0 / 10_u64.pow(decimals) as f64;
+    /// The last digit of positions, mm or deg.
+    pub fn position_digit(&self) -> f64 {
+        1.0 / 10_u64.pow(self.position_decimals) as f64
+    }
+
+    /// The last digit of velocities, mm/s or deg/s.
+    pub fn velocity_digit(&self) -> f64 {
+        1.0 / 10_u64.pow(self.velocity_decimals) as f64 / self.velocity_time()
+    }
+
+    /// The most by which its digits move X in the cut, mm, where no segment takes longer than this time, s.
+    pub fn moves_x_by(&self, longest_time: f64) -> f64 {
         let [_, x, _] = self.position_rounding(false);
-        let of_positions = x * one(self.position_decimals);
-        let of_controller = self.held_rounding(farthest).unwrap_or(0.0);
+        let of_positions = x * self.position_digit();
         let of_velocities = match self.shape() {
-            SegmentShape::Cubic => {
-                0.125 * one(self.velocity_decimals) / self.velocity_time() * longest_time
-            }
+            SegmentShape::Cubic => MOVED_BY_VELOCITIES * 0.5 * self.velocity_digit() * longest_time,
             SegmentShape::Linear => 0.0,
         };
-        of_positions + of_controller + of_velocities
+        of_positions + of_velocities
     }
 
     /// 1, or −1 if the program's C runs against the path's.

@@ -52,8 +52,8 @@ pub struct ProgramReport {
     /// The straight lines; `None` where the program plays cubics.
     #[serde(default)]
     pub straight_lines: Option<StraightLines>,
-    /// Cusps between the program's own passes; `None` where X goes as on the path, so that its passes are
-    /// those of the path.
+    /// Cusps between the program's own passes; `None` where X goes as on the path, but for its digits, so
+    /// that its passes are those of the path.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residual: Option<Residual>,
     /// Whether these hold the residual tolerance; `None` without one, or where they are those of the path.

@@ -35,7 +35,7 @@ impl Job {
             || self.sample(),
             || {
                 rayon::join(
-                    || largest_nose(&self.chain, &self.preparation).map_err(failed),
+                    || largest_nose(&self.chain.locus_links(), &self.preparation).map_err(failed),
                     || part_shape::shape(&self.recipe, &self.chain.surface, &part),
                 )
             },

@@ -32,7 +32,7 @@ impl Job {
     }
 
     fn data_remarks(&self, tolerance: f64) -> Result<Vec<Remark>, Error> {
-        let reach = data_reach(&self.chain, &self.preparation);
+        let reach = data_reach(&self.chain.locus_links(), &self.preparation);
         let reach = reach.map_err(|error| of_pipeline(&self.recipe, error))?;
         let on_data = |reach| on_data(reach, tolerance);
         Ok(reach.map(on_data).unwrap_or_default())

@@ -19,7 +19,7 @@ use crate::diagnosis::not_carried;
 use crate::error::Error;
 use crate::job::Job;
 use crate::plots::{PlayedPath, Plots, draw};
-use crate::program::{CarriedPath, Frame, Program, ProgramText};
+use crate::program::{Frame, Program, ProgramText};
 use crate::program_room::ProgramRoom;
 
 use crate::sinks::SinkError;
@@ -253,12 +253,7 @@ impl<'a> FolderSink<'a> {
             points,
         };
         let touch = job.preparation.touch.clone();
-        let carried = CarriedPath {
-            error: outcome.figures.playback.max(),
-            longest_time: outcome.figures.playback.longest_time,
-            shape: job.shape(),
-            residual: job.preparation.task.tolerance.residual,
-        };
+        let carried = job.carried_path(outcome);
         let report = program.measure(text, (&job.recipe, touch), carried, observer)?;
         drop(reader);
         let frame = program.frame(&job.recipe, outcome, points, &report);

@@ -3,7 +3,9 @@
 use turnpath_core::Tolerance;
 use turnpath_core::toolpath::SegmentShape;
 use turnpath_host::Catalogue;
-use turnpath_pipeline::{Chain, LeadLimits, LeadSettings, PathOptions, Preparation, prepare};
+use turnpath_pipeline::{
+    Chain, LeadLimits, LeadSettings, Outcome, PathOptions, Preparation, prepare,
+};
 use turnpath_post::ProgramError;
 use turnpath_recipe::{DataFormat, Diagnostics, Recipe};
 use turnpath_report::Overrun;
@@ -17,7 +19,7 @@ use crate::gap::of_preparation;
 use crate::job_spec::job_spec;
 use crate::named_files::UsedFile;
 use crate::posts::NotCarried;
-use crate::program::{Program, programs};
+use crate::program::{CarriedPath, Program, programs};
 use crate::strategies::{choices, used_files, wrong_choices};
 
 /// A recipe that can be run: its strategies are made, and its tool fits its part.
@@ -167,6 +169,17 @@ impl Job {
     /// What is played between control points.
     pub(crate) fn shape(&self) -> SegmentShape {
         self.chain.velocity.strategy.segments()
+    }
+
+    /// The path that it has made, for its programs.
+    pub(crate) fn carried_path(&self, outcome: &Outcome) -> CarriedPath {
+        let playback = &outcome.figures.playback;
+        CarriedPath {
+            error: playback.max(),
+            longest_time: playback.longest_time,
+            shape: self.shape(),
+            residual: self.preparation.task.tolerance.residual,
+        }
     }
 
     pub(crate) fn plays_straight_lines(&self) -> bool {

@@ -52,6 +52,7 @@ mod posts;
 mod program;
 mod program_room;
 mod program_size;
+mod read_blocks;
 mod recipe_file;
 mod recipe_schema;
 mod region;

@@ -18,11 +18,10 @@ use turnpath_verify::{
 use crate::diagnosis::of_measure;
 use crate::error::Error;
 use crate::figures::form_scope;
+use crate::read_blocks::ReadBlocks;
 use crate::segment_rate::SegmentRate;
 use crate::speed_steps::SpeedSteps;
 
-/// Rows that are measured in one go.
-pub const BLOCK_ROWS: usize = 20_000;
 /// Blocks that are read at a time, at the most, while those before are measured.
 const BLOCKS: usize = 16;
 /// Blocks of these for each thread. Fewer take less memory, and are measured while they are in the cache.
@@ -315,7 +314,8 @@ impl SectionFigures {
     }
 }
 
-/// Reads a path and measures it, in blocks, in parallel. The next blocks are read meanwhile, until all are measured.
+/// Reads a path and measures it, in blocks, in parallel. Meanwhile the next blocks are read: one, and more until these
+/// are measured.
 pub fn measure<M: Meters>(
     recipe: &Recipe,
     mut meters: M,
@@ -325,13 +325,15 @@ pub fn measure<M: Meters>(
 ) -> Result<M, Error> {
     let failed = |error: StrategyError| of_measure(recipe, error);
     let most = BLOCKS.min(BLOCKS_A_THREAD * rayon::current_num_threads());
-    let mut blocks = next_blocks(reader, shape, 1, || true)?;
+    // Nothing is measured while the first block is read.
+    let mut next = ReadBlocks::from(reader, shape, most, || true);
     loop {
         if observer.is_cancelled() {
             return Err(Error::Cancelled);
         }
+        let ReadBlocks { blocks, failure } = next;
         if blocks.is_empty() {
-            return Ok(meters);
+            return failure.map_or(Ok(meters), Err);
         }
         let count = blocks.len() as u64;
         let starts: Vec<M::Start> = blocks
@@ -347,30 +349,21 @@ pub fn measure<M: Meters>(
             are_measured.store(true, Ordering::Relaxed);
             measured
         };
-        let is_enough = || are_measured.load(Ordering::Relaxed);
-        let read = || next_blocks(reader, shape, most, is_enough);
-        let (measured, next) = rayon::join(measure_all, read);
+        let read = || match failure {
+            None => {
+                let is_enough = || are_measured.load(Ordering::Relaxed);
+                ReadBlocks::from(reader, shape, most, is_enough)
+            }
+            failure => ReadBlocks {
+                blocks: Vec::new(),
+                failure,
+            },
+        };
+        let measured;
+        (measured, next) = rayon::join(measure_all, read);
         for block in measured.map_err(failed)? {
             meters.append(block).map_err(failed)?;
         }
         observer.advance(count);
-        blocks = next?;
     }
-}
-
-/// The next blocks: at least one, if there is one, and `most` unless fewer are enough.
-fn next_blocks(
-    reader: &mut dyn ReadPath,
-    shape: SegmentShape,
-    most: usize,
-    is_enough: impl Fn() -> bool,
-) -> Result<Vec<(Section, PathBlock)>, Error> {
-    let mut blocks = Vec::new();
-    while let Some((section, block)) = reader.next_block(BLOCK_ROWS)? {
-        blocks.push((section, PathBlock { shape, ..block }));
-        if blocks.len() == most || is_enough() {
-            break;
-        }
-    }
-    Ok(blocks)
 }

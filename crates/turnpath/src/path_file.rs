@@ -64,9 +64,8 @@ impl SourceFile {
 
     /// The last digit of its velocities, mm/s or deg/s; zero if it has all digits of a double.
     pub fn velocity_digit(&self) -> f64 {
-        self.program.map_or(0.0, |Layout { format, .. }| {
-            one_in(format.velocity_decimals) / format.velocity_time()
-        })
+        self.program
+            .map_or(0.0, |Layout { format, .. }| format.velocity_digit())
     }
 
     /// By how much its numbers lie beside those that were rounded, in the cut and in leads.
@@ -74,7 +73,7 @@ impl SourceFile {
         let Some(Layout { format, .. }) = self.program else {
             return [Rounding::default(); 2];
         };
-        let digit = one_in(format.position_decimals);
+        let digit = format.position_digit();
         let rounding = |in_lead: bool| {
             let [c, x, z] = format.position_rounding(in_lead);
             Rounding {
@@ -99,7 +98,7 @@ impl SourceFile {
         let Some(Layout { format, .. }) = self.program else {
             return HalfDigits::default();
         };
-        let position = 0.5 * one_in(format.position_decimals);
+        let position = 0.5 * format.position_digit();
         // A program of straight lines has no velocities to compare.
         let velocity = match format.shape() {
             SegmentShape::Cubic => 0.5 * self.velocity_digit(),
@@ -113,11 +112,6 @@ impl SourceFile {
             angular_velocity: velocity * DEG,
         }
     }
-}
-
-/// The last one of so many decimals.
-fn one_in(decimals: u32) -> f64 {
-    1.0 / 10u64.pow(decimals) as f64
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use turnpath_core::Params;
 use turnpath_core::toolpath::{SectionBlock, SegmentShape};
-use turnpath_core::{Params, Part};
 use turnpath_host::sha256_hex;
 use turnpath_pipeline::{Leads, Observer, Outcome, Stage};
 use turnpath_post::{
@@ -20,12 +20,14 @@ use crate::depths::refuse_depths;
 use crate::diagnosis::{not_carried, of_measure};
 use crate::error::Error;
 use crate::figures::{coverage, form_error, residual, tolerances};
-use crate::meters::{BLOCK_ROWS, ProgramMeters, measure};
+use crate::meters::{ProgramMeters, measure};
 use crate::posts::{NotCarried, layout, posts};
+use crate::read_blocks::BLOCK_ROWS;
 
-/// The part of the residual tolerance by which digits may move a program, so that the passes of a program of cubics
-/// count as those of its path. A higher one would miss what digits do to cusps; with a lower one, programs
-/// of seven decimals would be measured too, which takes time and finds nothing.
+/// The part of the residual tolerance by which digits may move X, so that the passes of a program of cubics count as
+/// those of its path. A higher one would miss what digits do to cusps. With this one, the passes of programs of seven
+/// decimals are measured where the residual is 5 nm or less, and with a lower one they would be more often, which
+/// takes time and finds nothing.
 const COARSE_DIGITS: f64 = 0.01;
 
 /// A program that a recipe asks for.
@@ -243,9 +245,9 @@ impl Program {
 
     /// Whether the passes of the program may leave more than those of its path: straight lines in place of a path's
     /// cubics move them, and so do coarse digits.
-    fn moves_passes(&self, path: &CarriedPath, part: &Part) -> bool {
+    fn moves_passes(&self, path: &CarriedPath) -> bool {
         let format = &self.layout.format;
-        let moved = format.moves_by(part.aperture_radius, path.longest_time);
+        let moved = format.moves_x_by(path.longest_time);
         format.shape() != path.shape || moved > COARSE_DIGITS * path.residual
     }
 
@@ -267,7 +269,7 @@ impl Program {
         let meters = ProgramMeters::new(recipe, touch).with_servo(recipe);
         let mut meters = meters.with_speed_steps(self.layout.post.c_is_even);
         let shape = self.layout.format.shape();
-        if self.moves_passes(&path, &recipe.part) {
+        if self.moves_passes(&path) {
             meters = meters.with_passes(recipe);
         }
         let measured = measure(recipe, meters, shape, reader, observer)?;

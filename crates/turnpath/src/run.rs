@@ -26,7 +26,7 @@ use crate::outputs::{Destination, Outputs};
 use crate::page::{page_of_run, path_sketch};
 use crate::plots::{PlotError, PlotRequest, Plots};
 use crate::plugins::used;
-use crate::program::{CarriedPath, ProgramText};
+use crate::program::ProgramText;
 use crate::remarks::{PathSubject, shortest_segments};
 use crate::rough_paths::{RoughJob, can_be_in_result};
 use crate::sinks::{RowCount, SinkError, of_run};
@@ -156,12 +156,7 @@ impl Job {
                 points,
             };
             let touch = self.preparation.touch.clone();
-            let carried = CarriedPath {
-                error: outcome.figures.playback.max(),
-                longest_time: outcome.figures.playback.longest_time,
-                shape: self.shape(),
-                residual: self.preparation.task.tolerance.residual,
-            };
+            let carried = self.carried_path(&outcome);
             let report = program.measure(text, (&self.recipe, touch), carried, observer)?;
             drop(reader);
             let frame = program.frame(&self.recipe, &outcome, points, &report);

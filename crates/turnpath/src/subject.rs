@@ -38,7 +38,7 @@ pub fn subject(recipe: &Recipe, links: &LocusLinks) -> Subject {
 }
 
 /// The tool as a run of the recipe takes it: where the whole tool fits, nothing has to be left, though the recipe
-/// would allow it. A recipe that cannot be run says itself what its tool does.
+/// would allow it. Where the part refuses the tool, the recipe's own tool counts.
 fn tool(recipe: &Recipe, links: &LocusLinks) -> Tool {
     if recipe.tool.misfit == Misfit::Refuse {
         return recipe.tool;

@@ -1,6 +1,6 @@
 //! The meter of a program: the figures that its digits and times of a path's own can change, and no
-//! others. What the path itself would cut is measured on the path. Where X goes on straight lines and the
-//! path's does not, the passes lie elsewhere too, and what they leave is measured on the program.
+//! others. What the path itself would cut is measured on the path. Where straight lines stand
+//! for cubics, or digits are coarse, the passes lie elsewhere too, and what they leave is measured on the program.
 
 use turnpath_core::Result;
 use turnpath_core::toolpath::PathBlock;
@@ -45,7 +45,8 @@ impl ProgramMeter {
         }
     }
 
-    /// The same with what the passes leave, for a program whose X is not that of its path.
+    /// The same with what the passes leave, for a program whose X is not that of its path: where straight
+    /// lines stand for cubics, or digits are coarse.
     /// `counts_centre` says whether the path is meant to cover the axis: the cusps there then count as
     /// residual.
     #[must_use]

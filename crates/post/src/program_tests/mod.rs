@@ -17,6 +17,7 @@ mod modes;
 mod numbers;
 mod parts;
 mod round_trips;
+mod rounding;
 mod travel;
 mod whole;
 
