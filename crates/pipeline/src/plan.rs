@@ -298,17 +298,19 @@ impl<'a> Plan<'a> {
         let last = (self.law.end() - 1.0).max(0.0).floor();
         let sequential = self.sampler.dependence() == Dependence::Sequential;
         let count = if sequential { 1 } else { 3 };
-        let (mut densest, mut sparsest) = (0, usize::MAX);
-        for start in [0.0, (0.5 * last).floor(), last].into_iter().take(count) {
+        let starts = [0.0, (0.5 * last).floor(), last]
+            .into_par_iter()
+            .take(count);
+        let nodes = one_at_a_time(starts.map(|start| {
             let end = (start + 1.0).min(self.law.end());
             let nodes = self.ask_sampler(Revolutions { start, end }, &mut Vec::new())?;
-            densest = densest.max(nodes.len());
-            sparsest = sparsest.min(nodes.len());
-        }
-        self.density = densest as f64;
-        match sequential {
-            true => Ok(()),
-            false => check_points(self.distance(), self.law.end(), sparsest as f64),
+            Ok(nodes.len())
+        }))?;
+        let [sparsest, densest] = [nodes.iter().min(), nodes.iter().max()];
+        self.density = densest.map_or(0.0, |nodes| *nodes as f64);
+        match sparsest.filter(|_| !sequential) {
+            None => Ok(()),
+            Some(nodes) => check_points(self.distance(), self.law.end(), *nodes as f64),
         }
     }
 

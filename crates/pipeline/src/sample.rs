@@ -104,14 +104,10 @@ pub fn sample_path(
         })
         .transpose()?;
     let block = |stratum: &Stratum| sampled_block(&plan, stratum, &depths, are_cut);
-    let blocks = one_at_a_time(strata.par_iter().map(block))?;
-    let segments: f64 = blocks.iter().map(SampledBlock::segments).sum();
+    let sample = blocks_and_leads(&plan, &strata, block, leads)?;
+    let segments: f64 = sample.blocks.iter().map(SampledBlock::segments).sum();
     let estimate = Estimate::of(&plan, segments / plan.law.end())?;
-    let leads = match leads.zip(blocks.last()) {
-        Some((leads, last)) => both_leads(&plan, leads, &last.points)?,
-        None => Vec::new(),
-    };
-    Ok((estimate, PathSample { blocks, leads }))
+    Ok((estimate, sample))
 }
 
 fn all_blocks(plan: &Plan<'_>) -> Vec<usize> {
@@ -144,6 +140,31 @@ fn sampled_block(
 }
 
 /// The lead-in, and the lead-out behind the last block of the cut.
+/// The sampled blocks, and both leads. The lead-out needs the last block alone, and is laid out beside the others.
+fn blocks_and_leads(
+    plan: &Plan<'_>,
+    strata: &[Stratum],
+    block: impl Fn(&Stratum) -> Result<SampledBlock> + Sync,
+    leads: Option<LeadRun>,
+) -> Result<PathSample> {
+    let Some((last, others)) = strata.split_last() else {
+        return Ok(PathSample::default());
+    };
+    let last = block(last);
+    let lay_out = || match (leads, &last) {
+        (Some(leads), Ok(last)) => both_leads(plan, leads, &last.points),
+        _ => Ok(Vec::new()),
+    };
+    let make_others = || one_at_a_time(others.par_iter().map(&block));
+    let (others, leads) = rayon::join(make_others, lay_out);
+    let mut blocks = others?;
+    blocks.push(last?);
+    Ok(PathSample {
+        blocks,
+        leads: leads?,
+    })
+}
+
 fn both_leads(
     plan: &Plan<'_>,
     leads: LeadRun,

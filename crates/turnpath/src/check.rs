@@ -30,21 +30,22 @@ impl Job {
     /// When a strategy fails.
     pub fn check(&self) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
-        let part = self.preparation.task.part;
-        let (sampled, (nose, shape)) = rayon::join(
-            || self.sample(),
-            || {
-                rayon::join(
-                    || largest_nose(&self.chain.locus_links(), &self.preparation).map_err(failed),
-                    || part_shape::shape(&self.recipe, &self.chain.surface, &part),
-                )
-            },
-        );
+        let task = &self.preparation.task;
+        let find_nose =
+            || largest_nose(&self.chain.locus_links(), &self.preparation).map_err(failed);
+        let find_shape = || {
+            rayon::join(
+                || part_shape::shape(&self.recipe, &self.chain.surface, &task.part),
+                || self.data_remarks(task.tolerance.interpolation),
+            )
+        };
+        let (sampled, (nose, (shape, on_data))) =
+            rayon::join(|| self.sample(), || rayon::join(find_nose, find_shape));
         let ((expected, sample), nose) = (sampled?, nose?);
         let rough_jobs = self.rough_jobs()?;
         let rough_paths = rough_jobs.iter().map(RoughJob::expected);
         let path = PathSubject {
-            tolerance: self.preparation.task.tolerance,
+            tolerance: task.tolerance,
             cutting_time: expected.cutting_time,
             lead_time: lead_time(&sample),
             revolutions: expected.revolutions,
@@ -66,7 +67,7 @@ impl Job {
                 Some(program) => program.axis_notes(&self.recipe),
                 None => axis_notes(&self.recipe, false),
             }),
-            remarks: self.remarks(&path)?,
+            remarks: self.remarks(&path, on_data?),
             controller_commands: controller_commands(&self.recipe),
         };
         Ok(report.rounded())

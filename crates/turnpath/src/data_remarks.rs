@@ -16,22 +16,23 @@ use crate::plugins::used;
 use crate::remarks::{PathSubject, remarks, short_edge};
 
 impl Job {
-    /// All remarks on the recipe and its path.
-    pub(crate) fn remarks(&self, path: &PathSubject) -> Result<Vec<Remark>, Error> {
+    /// All remarks on the recipe and its path, those on its data among them.
+    pub(crate) fn remarks(&self, path: &PathSubject, on_data: Vec<Remark>) -> Vec<Remark> {
         let found = &self.preparation.interference;
         let mut all = remarks(&self.recipe, path, found.cut_angle().value);
         let steepest = found.contact_angle().value;
         all.extend(short_edge(&self.preparation.task, path, steepest));
-        all.extend(self.data_remarks(path.tolerance.interpolation)?);
+        all.extend(on_data);
         all.extend(inexact(
             &self.recipe,
             &self.catalogue,
             &self.inexact_surfaces,
         ));
-        Ok(all)
+        all
     }
 
-    fn data_remarks(&self, tolerance: f64) -> Result<Vec<Remark>, Error> {
+    /// The remarks on the data of the surface. The tolerance is that of interpolation, mm.
+    pub(crate) fn data_remarks(&self, tolerance: f64) -> Result<Vec<Remark>, Error> {
         let reach = data_reach(&self.chain.locus_links(), &self.preparation);
         let reach = reach.map_err(|error| of_pipeline(&self.recipe, error))?;
         let on_data = |reach| on_data(reach, tolerance);

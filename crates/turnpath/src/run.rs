@@ -317,7 +317,8 @@ impl Job {
             control_points: outcome.control_points as f64,
             z_acceleration: Some(path.axes.z.acceleration.max),
         };
-        let mut remarks = self.remarks(&subject)?;
+        let on_data = self.data_remarks(subject.tolerance.interpolation)?;
+        let mut remarks = self.remarks(&subject, on_data);
         if recipe.refine {
             remarks.extend(shortest_segments(
                 &subject.tolerance,
