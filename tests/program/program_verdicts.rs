@@ -59,7 +59,7 @@ fn coarse_digits_move_passes_and_the_run_says_so() {
     assert!(program.get("residual").is_none(), "{program}");
 }
 
-/// Velocities in whole mm/s move passes by up to 0.4 µm within segments, where X moves within the turn.
+/// Velocities in whole mm/s move passes where X moves within the turn.
 #[test]
 fn coarse_velocities_move_passes_and_the_run_says_so() {
     let moved = changed(SADDLE, "use = \"z-direction\"", "use = \"normal\"");
@@ -77,7 +77,10 @@ fn coarse_velocities_move_passes_and_the_run_says_so() {
     let summary: Value = serde_json::from_str(&bench.read("out/summary.json")).unwrap();
     assert_eq!(summary["within"]["residual"], true);
     let said = bench.line("run recipe.toml -o out").ends(1);
-    assert!(said.stdout.contains("or `velocity_decimals`"), "{said}");
+    assert!(
+        said.stdout.contains("or more `velocity_decimals`"),
+        "{said}"
+    );
     let fine = "run recipe.toml -o fine --format json --set output.pmac-pvt.velocity_decimals=6";
     let program = bench.line(fine).ends(0).json()["programs"][0].clone();
     assert!(program.get("residual").is_none(), "{program}");

@@ -306,11 +306,12 @@ impl<'a> Plan<'a> {
             let nodes = self.ask_sampler(Revolutions { start, end }, &mut Vec::new())?;
             Ok(nodes.len())
         }))?;
-        let [sparsest, densest] = [nodes.iter().min(), nodes.iter().max()];
-        self.density = densest.map_or(0.0, |nodes| *nodes as f64);
-        match sparsest.filter(|_| !sequential) {
-            None => Ok(()),
-            Some(nodes) => check_points(self.distance(), self.law.end(), *nodes as f64),
+        let [sparsest, densest] = [nodes.iter().min(), nodes.iter().max()]
+            .map(|nodes| nodes.map_or(0.0, |nodes| *nodes as f64));
+        self.density = densest;
+        match sequential {
+            true => Ok(()),
+            false => check_points(self.distance(), self.law.end(), sparsest),
         }
     }
 

@@ -139,8 +139,7 @@ fn sampled_block(
     })
 }
 
-/// The lead-in, and the lead-out behind the last block of the cut.
-/// The sampled blocks, and both leads. The lead-out needs the last block alone, and is laid out beside the others.
+/// The sampled blocks, and both leads. The lead-out is laid out behind the last block while the others are made.
 fn blocks_and_leads(
     plan: &Plan<'_>,
     strata: &[Stratum],
@@ -150,21 +149,19 @@ fn blocks_and_leads(
     let Some((last, others)) = strata.split_last() else {
         return Ok(PathSample::default());
     };
-    let last = block(last);
-    let lay_out = || match (leads, &last) {
-        (Some(leads), Ok(last)) => both_leads(plan, leads, &last.points),
-        _ => Ok(Vec::new()),
-    };
     let make_others = || one_at_a_time(others.par_iter().map(&block));
-    let (others, leads) = rayon::join(make_others, lay_out);
-    let mut blocks = others?;
-    blocks.push(last?);
-    Ok(PathSample {
-        blocks,
-        leads: leads?,
-    })
+    let make_end = || -> Result<_> {
+        let last = block(last)?;
+        let leads = leads.map(|leads| both_leads(plan, leads, &last.points));
+        Ok((last, leads.transpose()?.unwrap_or_default()))
+    };
+    let (others, end) = rayon::join(make_others, make_end);
+    let (mut blocks, (last, leads)) = (others?, end?);
+    blocks.push(last);
+    Ok(PathSample { blocks, leads })
 }
 
+/// The lead-in, and the lead-out behind the last block of the cut.
 fn both_leads(
     plan: &Plan<'_>,
     leads: LeadRun,

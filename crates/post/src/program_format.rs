@@ -253,7 +253,8 @@ impl ProgramFormat {
         1.0 / 10_u64.pow(self.velocity_decimals) as f64 / self.velocity_time()
     }
 
-    /// The most by which its digits move X in the cut, mm, where no segment takes longer than this time, s.
+    /// The most by which the digits of the program move X in the cut, mm, where no segment takes longer than this time,
+    /// s. What the controller's numbers add is not counted: see [`Self::held_rounding`].
     pub fn moves_x_by(&self, longest_time: f64) -> f64 {
         let [_, x, _] = self.position_rounding(false);
         let of_positions = x * self.position_digit();

@@ -33,14 +33,12 @@ impl Job {
         let task = &self.preparation.task;
         let find_nose =
             || largest_nose(&self.chain.locus_links(), &self.preparation).map_err(failed);
-        let find_shape = || {
-            rayon::join(
-                || part_shape::shape(&self.recipe, &self.chain.surface, &task.part),
-                || self.data_remarks(task.tolerance.interpolation),
-            )
-        };
-        let (sampled, (nose, (shape, on_data))) =
-            rayon::join(|| self.sample(), || rayon::join(find_nose, find_shape));
+        let find_shape = || part_shape::shape(&self.recipe, &self.chain.surface, &task.part);
+        let look_at_data = || self.data_remarks(task.tolerance.interpolation);
+        let (sampled, (nose, (shape, on_data))) = rayon::join(
+            || self.sample(),
+            || rayon::join(find_nose, || rayon::join(find_shape, look_at_data)),
+        );
         let ((expected, sample), nose) = (sampled?, nose?);
         let rough_jobs = self.rough_jobs()?;
         let rough_paths = rough_jobs.iter().map(RoughJob::expected);

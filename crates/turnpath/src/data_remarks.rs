@@ -31,7 +31,8 @@ impl Job {
         all
     }
 
-    /// The remarks on the data of the surface. The tolerance is that of interpolation, mm.
+    /// The remarks on the data of the surface. The tolerance of interpolation, mm, is that
+    /// which the path is made for.
     pub(crate) fn data_remarks(&self, tolerance: f64) -> Result<Vec<Remark>, Error> {
         let reach = data_reach(&self.chain.locus_links(), &self.preparation);
         let reach = reach.map_err(|error| of_pipeline(&self.recipe, error))?;

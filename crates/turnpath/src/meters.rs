@@ -314,8 +314,8 @@ impl SectionFigures {
     }
 }
 
-/// Reads a path and measures it, in blocks, in parallel. Meanwhile the next blocks are read: one, and more until these
-/// are measured.
+/// Reads a path and measures it, in blocks, in parallel. While blocks are measured, the next one is read, and more until
+/// they are measured.
 pub fn measure<M: Meters>(
     recipe: &Recipe,
     mut meters: M,
@@ -325,8 +325,8 @@ pub fn measure<M: Meters>(
 ) -> Result<M, Error> {
     let failed = |error: StrategyError| of_measure(recipe, error);
     let most = BLOCKS.min(BLOCKS_A_THREAD * rayon::current_num_threads());
-    // Nothing is measured while the first block is read.
-    let mut next = ReadBlocks::from(reader, shape, most, || true);
+    // The first block is read alone, so that measuring begins early.
+    let mut next = ReadBlocks::read(reader, shape, most, || true);
     loop {
         if observer.is_cancelled() {
             return Err(Error::Cancelled);
@@ -352,7 +352,7 @@ pub fn measure<M: Meters>(
         let read = || match failure {
             None => {
                 let is_enough = || are_measured.load(Ordering::Relaxed);
-                ReadBlocks::from(reader, shape, most, is_enough)
+                ReadBlocks::read(reader, shape, most, is_enough)
             }
             failure => ReadBlocks {
                 blocks: Vec::new(),

@@ -9,7 +9,8 @@ use crate::error::Error;
 pub const BLOCK_ROWS: usize = 20_000;
 
 /// Blocks of a path, and why no block follows them if reading failed there. So what is wrong with a block is told
-/// before what is wrong behind it, however many blocks were read together.
+/// before what is wrong behind it, however many blocks were read together. The block in which reading fails is not
+/// among them.
 #[derive(Debug)]
 pub struct ReadBlocks {
     /// The blocks, each with its section.
@@ -20,7 +21,7 @@ pub struct ReadBlocks {
 
 impl ReadBlocks {
     /// Reads on until there are `most` blocks, until one or more are enough, or to the end of the path.
-    pub fn from(
+    pub fn read(
         reader: &mut dyn ReadPath,
         shape: SegmentShape,
         most: usize,
@@ -99,7 +100,7 @@ mod tests {
     }
 
     fn read(cut: &mut Cut, is_enough: impl Fn() -> bool) -> ReadBlocks {
-        ReadBlocks::from(cut, SegmentShape::Cubic, 4, is_enough)
+        ReadBlocks::read(cut, SegmentShape::Cubic, 4, is_enough)
     }
 
     #[test]

@@ -158,7 +158,7 @@ fn passes(program: &ProgramReport, tolerance: &Tolerances, of_path: &Verdict) ->
                 "a smaller `chord_share`, so that more lines come nearer to the path, or more \
                  `position_decimals`"
             }
-            false => "more `position_decimals`, or `velocity_decimals` if it has them",
+            false => "more `position_decimals`, or more `velocity_decimals` where it has that key",
         };
         let text_of_help = format!("the path holds what the program exceeds: give the post {help}");
         text += &line("", text_of_help);
