@@ -367,3 +367,103 @@ pub fn measure<M: Meters>(
         observer.advance(count);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use turnpath_core::toolpath::ControlPoint;
+    use turnpath_pipeline::SilentObserver;
+    use turnpath_post::{ReadCount, ReadError};
+
+    use super::*;
+
+    /// Meters that count blocks, and fail at one of them.
+    struct Count {
+        begun: usize,
+        measured: usize,
+        fails_at: usize,
+    }
+
+    impl Meters for Count {
+        type Start = usize;
+        type Block = ();
+
+        fn advance(&mut self, _: &PathBlock) -> usize {
+            self.begun += 1;
+            self.begun
+        }
+
+        fn measure(&self, _: Section, _: PathBlock, start: usize) -> Result<(), StrategyError> {
+            match start == self.fails_at {
+                true => Err(StrategyError::failed("no height")),
+                false => Ok(()),
+            }
+        }
+
+        fn append(&mut self, (): ()) -> Result<(), StrategyError> {
+            self.measured += 1;
+            Ok(())
+        }
+    }
+
+    /// So many blocks, behind which the file is damaged.
+    struct Damaged(usize, ReadCount);
+
+    impl ReadPath for Damaged {
+        fn next_point(&mut self) -> Result<Option<(ControlPoint, Section)>, ReadError> {
+            Ok(None)
+        }
+
+        fn next_block(&mut self, _: usize) -> Result<Option<(Section, PathBlock)>, ReadError> {
+            let left = self.0.checked_sub(1).ok_or_else(|| ReadError::File {
+                path: "path.csv".into(),
+                error: std::io::Error::other("damaged"),
+            })?;
+            self.0 = left;
+            Ok(Some((Section::Cutting, PathBlock::default())))
+        }
+
+        fn read_count(&self) -> &ReadCount {
+            &self.1
+        }
+
+        fn read_count_mut(&mut self) -> &mut ReadCount {
+            &mut self.1
+        }
+    }
+
+    /// What is said of a file with seven blocks before its damage, where meters fail at one of its blocks.
+    fn said(fails_at: usize) -> String {
+        let text = include_str!("../../../docs/recipes/astigmatic-5mm.toml");
+        let recipe = Recipe::parse(text, "recipe.toml", &[]).unwrap();
+        let meters = Count {
+            begun: 0,
+            measured: 0,
+            fails_at,
+        };
+        let mut reader = Damaged(7, ReadCount::default());
+        let measured = measure(
+            &recipe,
+            meters,
+            SegmentShape::Cubic,
+            &mut reader,
+            &SilentObserver,
+        );
+        match measured {
+            Ok(meters) => format!("{} blocks", meters.measured),
+            Err(error) => format!("{error:?}"),
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_block_is_told_before_damage_behind_it() {
+        for threads in [1, 4] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.unwrap().install(|| {
+                for block in 1..=7 {
+                    assert!(said(block).contains("no height"), "{}", said(block));
+                }
+                assert!(said(8).contains("damaged"), "{}", said(8));
+            });
+        }
+    }
+}
