@@ -27,8 +27,8 @@ use crate::{Chain, PipelineError, Preparation, Result, RunError, schedule};
 /// waiting for long, and few enough that what was measured on them is written down while it is in the
 /// cache and its memory is used again.
 const BLOCKS_A_THREAD: usize = 4;
-/// The same where nodes are not held. Each batch places the nodes of some blocks beside it once more, so fewer and
-/// larger batches place fewer.
+/// The same where nodes are not held. Each batch also places the nodes of some blocks beside it. With larger batches,
+/// fewer nodes are placed twice.
 const PLACED_BLOCKS_A_THREAD: usize = 8;
 /// Most blocks that are made at a time, so that a batch of large blocks (half a million nodes each) stays
 /// within some hundred megabytes.

@@ -8,9 +8,9 @@ use crate::error::Error;
 /// Rows that are measured in one go.
 pub const BLOCK_ROWS: usize = 20_000;
 
-/// Blocks of a path, and why no block follows them if reading failed there. So what is wrong with a block is told
-/// before what is wrong behind it, however many blocks were read together. The block in which reading fails is not
-/// among them.
+/// Blocks of a path. If reading failed behind them, the failure is kept until they are measured. So what is wrong with a
+/// block is told before what is wrong behind it, however many blocks were read together. The block in which reading
+/// fails is lost.
 #[derive(Debug)]
 pub struct ReadBlocks {
     /// The blocks, each with its section.
