@@ -13,10 +13,10 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use turnpath_core::interference::Conflict;
 use turnpath_core::{
-    Compensator, DEG, Direction, Machine, Misfit, Overrun, ParamValue, Params, Part, Radial,
-    Scalar, Slot, Strategy, SurfaceModel, Tolerance, Tool,
+    Compensator, DEG, Direction, JobSpec, Machine, Misfit, Overrun, ParamValue, Params, Part,
+    Radial, Scalar, Slot, Strategy, SurfaceModel, Tolerance, Tool,
 };
-use turnpath_pipeline::{Chain, JobSpec, Link, PipelineError, Preparation, largest_nose, prepare};
+use turnpath_pipeline::{Chain, Link, PipelineError, Preparation, largest_nose, prepare};
 
 use crate::support::models::try_model;
 

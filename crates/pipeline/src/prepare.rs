@@ -1,12 +1,11 @@
 //! Before there is a path: the range of ρ, and whether the tool fits.
 
 use turnpath_core::interference::{Conflict, Extreme, Interference};
-use turnpath_core::{Compensator, Misfit, Overrun, Task, Tool, ToolLocus};
+use turnpath_core::{Compensator, JobSpec, Misfit, Overrun, Task, Tool, ToolLocus};
 use turnpath_verify::{FirstTouch, Subject};
 
 use crate::contact::contact_range;
 use crate::fit::Fit;
-use crate::job_spec::JobSpec;
 use crate::on_part::{check_data, check_heights};
 use crate::size::check_part;
 use crate::walls::check_walls;

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use turnpath_core::{Locus, Overrun, RadialRange, SpiralLaw, Task};
+use turnpath_core::{JobSpec, Locus, Overrun, RadialRange, SpiralLaw, Task};
 
 use crate::path_size::{Excess, MOST_PIECES, MOST_POINTS, MOST_REVOLUTIONS, PathSize};
-use crate::{JobSpec, PipelineError, Result};
+use crate::{PipelineError, Result};
 
 /// Fewest revolutions from which the length of the whole law is foretold.
 const FORETOLD: f64 = 1000.0;

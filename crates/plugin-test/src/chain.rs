@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use turnpath_core::{DataFile, ParamValue, Params, Result as Answer, Slot, Task};
 use turnpath_host::{Catalogue, Strategy};
-use turnpath_pipeline::{Chain, JobSpec, Link, Preparation, prepare};
+use turnpath_pipeline::{Chain, Link, Preparation, prepare};
 use turnpath_recipe::Recipe;
 
 use crate::fault::FaultKind;
@@ -41,16 +41,8 @@ impl TrialChain {
                 one.offer().spindle(params)
             })?,
         };
-        let spec = JobSpec {
-            part: recipe.part,
-            tool: recipe.tool,
-            tolerance: recipe.tolerance,
-            overrun: recipe.overrun,
-            direction: recipe.direction,
-            spindle_speed: recipe.spindle_speed,
-            machine: recipe.machine,
-        };
-        let preparation = prepare(&chain.locus_links(), spec).map_err(FaultKind::Path)?;
+        let preparation =
+            prepare(&chain.locus_links(), recipe.job_spec()).map_err(FaultKind::Path)?;
         Ok(Self { chain, preparation })
     }
 

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use toml::de::DeTable;
-use turnpath_core::{Direction, Machine, Overrun, Part, Pose, Servo, Slot, Tolerance, Tool};
+use turnpath_core::{
+    Direction, JobSpec, Machine, Overrun, Part, Pose, Servo, Slot, Tolerance, Tool,
+};
 use turnpath_post::POSTS;
 
 use crate::choice::Choice;
@@ -244,6 +246,19 @@ impl Recipe {
             Slot::Compensator => &self.choices[3],
             Slot::Velocity => &self.choices[4],
             Slot::Spindle => &self.choices[5],
+        }
+    }
+
+    /// The part, tool, tolerances and machine, before the range of ρ is known.
+    pub fn job_spec(&self) -> JobSpec {
+        JobSpec {
+            part: self.part,
+            tool: self.tool,
+            tolerance: self.tolerance,
+            overrun: self.overrun,
+            direction: self.direction,
+            spindle_speed: self.spindle_speed,
+            machine: self.machine,
         }
     }
 

@@ -16,7 +16,6 @@ use crate::diagnosis::{needs_exact_rates, not_carried};
 use crate::error::Error;
 use crate::figures::form_scope;
 use crate::gap::of_preparation;
-use crate::job_spec::job_spec;
 use crate::named_files::UsedFile;
 use crate::posts::NotCarried;
 use crate::program::{CarriedPath, Program, programs};
@@ -70,7 +69,7 @@ impl Job {
         let (chain, inexact_surfaces) = chain(&recipe, catalogue, files)?;
         let data_files = used_files(&recipe, catalogue, files)?;
         refuse_inexact_rates(&recipe, &chain)?;
-        let preparation = prepare(&chain.locus_links(), job_spec(&recipe))
+        let preparation = prepare(&chain.locus_links(), recipe.job_spec())
             .map_err(|error| of_preparation(&recipe, &chain.surface, error))?;
         let programs = programs(&recipe, chain.compensator.strategy.compensates_nose())?;
         let job = Self {

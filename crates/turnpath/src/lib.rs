@@ -36,7 +36,6 @@ mod gap;
 mod import;
 mod input_files;
 mod job;
-mod job_spec;
 mod memory;
 mod meters;
 mod named_files;

@@ -8,7 +8,6 @@ use turnpath_verify::Subject;
 
 use crate::data_files::DataFiles;
 use crate::error::Error;
-use crate::job_spec::job_spec;
 use crate::strategies::compensator;
 use crate::surface::surface;
 
@@ -43,6 +42,6 @@ fn tool(recipe: &Recipe, links: &LocusLinks) -> Tool {
     if recipe.tool.misfit == Misfit::Refuse {
         return recipe.tool;
     }
-    let preparation = prepare(links, job_spec(recipe));
+    let preparation = prepare(links, recipe.job_spec());
     preparation.map_or(recipe.tool, |preparation| preparation.task.tool)
 }

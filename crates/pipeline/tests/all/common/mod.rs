@@ -12,14 +12,13 @@ use std::sync::Arc;
 use turnpath_core::toolpath::{PathBlock, Section, SectionBlock};
 use turnpath_core::{
     Centres, Compensator, Continuation, Cut, Dependence, Direction, FeedPiece, FeedPlan,
-    FeedStrategy, Machine, NodeList, Overrun, Part, Path, Radial, Rates, Result, Revolutions,
-    Sampler, SamplerPlan, Scalar, Setup, Slot, SpindleAsk, SpindleLaw, SpindleStrategy,
-    StrategyError, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
+    FeedStrategy, JobSpec, Machine, NodeList, Overrun, Part, Path, Radial, Rates, Result,
+    Revolutions, Sampler, SamplerPlan, Scalar, Setup, Slot, SpindleAsk, SpindleLaw,
+    SpindleStrategy, StrategyError, Surface, SurfaceModel, Tolerance, Tool, VelocitySolver,
 };
 use turnpath_pipeline::{
-    Chain, DraftSink, Estimate, JobSpec, LeadSettings, Link, Observer, Outcome, PathOptions,
-    PathSample, PipelineError, RunError, SilentObserver, Sink, make_unmeasured, prepare, run,
-    sample_path,
+    Chain, DraftSink, Estimate, LeadSettings, Link, Observer, Outcome, PathOptions, PathSample,
+    PipelineError, RunError, SilentObserver, Sink, make_unmeasured, prepare, run, sample_path,
 };
 use turnpath_verify::FirstTouch;
 

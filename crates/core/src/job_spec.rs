@@ -1,9 +1,9 @@
-//! The job of a recipe, as [`prepare()`](crate::prepare()) gets it.
+//! The job of a recipe, before the range of ρ is known.
 
-use turnpath_core::{Direction, Machine, Overrun, Part, RadialRange, Task, Tolerance, Tool};
+use crate::{Direction, Machine, Overrun, Part, RadialRange, Task, Tolerance, Tool};
 
 /// A task as a recipe describes it, before the range of ρ is known.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct JobSpec {
     /// The part.
     pub part: Part,
@@ -23,7 +23,7 @@ pub struct JobSpec {
 
 impl JobSpec {
     /// The task over a range of ρ.
-    pub(crate) fn over(self, range: RadialRange) -> Task {
+    pub fn over(self, range: RadialRange) -> Task {
         Task {
             part: self.part,
             tool: self.tool,
