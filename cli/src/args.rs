@@ -103,7 +103,7 @@ pub struct WorkArgs {
     /// Print no summary and no progress; the exit status says the verdict
     #[arg(short, long, conflicts_with_all = ["verbose", "format"])]
     pub quiet: bool,
-    /// Say on standard error how long each stage took, and what was counted (run, verify, report)
+    /// Say on standard error how long each stage took, and what was counted (run, check, verify, report)
     #[arg(short, long)]
     pub verbose: bool,
 }

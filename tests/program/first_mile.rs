@@ -59,6 +59,10 @@ fn quiet_prints_nothing_and_verbose_the_time_of_each_stage() {
     ] {
         assert!(said.stderr.contains(stage), "{said}");
     }
+    let said = bench.line("check recipe.toml -v").ends(0);
+    for stage in ["planning the feed: ", "making a sample of the path: "] {
+        assert!(said.stderr.contains(stage), "{said}");
+    }
 }
 
 /// The schema has every strategy with its parameters, and the tables of the host.

@@ -7,6 +7,7 @@ use super::setup;
 use crate::args::{CheckArgs, WorkArgs};
 use crate::failure::Failure;
 use crate::print::print_report;
+use crate::progress::Bar;
 use crate::{Outcome, Status};
 
 /// Checks a recipe.
@@ -15,7 +16,10 @@ pub fn check(args: &CheckArgs, catalogue: Catalogue) -> Outcome {
     let (recipe, catalogue) = setup::trusted_recipe(&args.recipe, catalogue)?;
     // A thread of the pool begins. The first thread would only hand its parts over and wait. The two threads that
     // then wake up share one processor now and then, for some milliseconds.
-    let report = rayon::scope(|_| Job::new(recipe.clone(), &catalogue).and_then(|job| job.check()));
+    let bar = Bar::new(&args.work);
+    let check = || Job::new(recipe.clone(), &catalogue)?.check(&bar);
+    let report = rayon::scope(|_| check());
+    bar.clear();
     match report {
         Ok(report) => print_report(args.work.answer(), &report, text::check)?,
         Err(error) => {

@@ -2,8 +2,9 @@
 
 use crate::{PipelineError, Result};
 
-/// A stage of a run. The stages come in this order, but for a path that needs refinement: it is begun to
-/// be written, then refined, and then written from its beginning.
+/// A stage of a run, or of a check. The stages of a run come in this order, but for a path that needs refinement: it
+/// is begun to be written, then refined, and then written from its beginning. A check plans the law, plays a sample
+/// back if the path is refined, and makes the sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// A path made for a tolerance of form; the count of paths is from 1. The stages of the path
@@ -11,6 +12,8 @@ pub enum Stage {
     Form(u32),
     /// Planning the spiral law; how long that takes is not known.
     Law,
+    /// Making some blocks of the path, from which its size is known before it is made.
+    Sample,
     /// Making, playing back, measuring and writing the path.
     Write,
     /// Playing the path back and refining it; the round counts from 1. Its blocks are those that this

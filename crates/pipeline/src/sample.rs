@@ -9,7 +9,7 @@ use turnpath_verify::AxesMotion;
 use crate::estimate::Estimate;
 use crate::lead::{LeadRun, LeadTask};
 use crate::make::{BlockPoints, Depths, first_state, is_sequential, make};
-use crate::observer::SilentObserver;
+use crate::observer::{Observer, Stage, stop_if_cancelled};
 use crate::options::PathOptions;
 use crate::order::one_at_a_time;
 use crate::plan::Plan;
@@ -67,13 +67,14 @@ impl SampledBlock {
 /// The estimate of a path as refinement leaves it, and a sample of it.
 ///
 /// # Errors
-/// When a strategy fails.
+/// When a strategy fails, and when the observer cancels.
 pub fn sample_path(
     chain: &Chain,
     preparation: &Preparation,
     options: PathOptions,
+    observer: &dyn Observer,
 ) -> Result<(Estimate, PathSample)> {
-    let observer = &SilentObserver;
+    observer.begin(Stage::Law, 0);
     let mut plan = schedule::plan(chain, preparation, observer)?;
     plan.time_steps = options.time_steps;
     let whole_block = plan.block();
@@ -103,7 +104,13 @@ pub fn sample_path(
             LeadRun::begin(&mut plan, &depths, task)
         })
         .transpose()?;
-    let block = |stratum: &Stratum| sampled_block(&plan, stratum, &depths, are_cut);
+    observer.begin(Stage::Sample, strata.len() as u64);
+    let block = |stratum: &Stratum| {
+        stop_if_cancelled(observer)?;
+        let block = sampled_block(&plan, stratum, &depths, are_cut)?;
+        observer.advance(1);
+        Ok(block)
+    };
     let sample = blocks_and_leads(&plan, &strata, block, leads)?;
     let segments: f64 = sample.blocks.iter().map(SampledBlock::segments).sum();
     let estimate = Estimate::of(&plan, segments / plan.law.end())?;

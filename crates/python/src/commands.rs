@@ -125,15 +125,16 @@ fn columns(py: Python<'_>, path: ToolPath) -> PyResult<Bound<'_, PyDict>> {
 
 /// Checks a recipe without making its path: the report.
 #[pyfunction]
-#[pyo3(signature = (recipe, sources, *, threads=0))]
+#[pyo3(signature = (recipe, sources, control, *, threads=0))]
 pub fn check(
     py: Python<'_>,
     recipe: RecipeText,
     sources: Sources<'_>,
+    control: Control,
     threads: usize,
 ) -> PyResult<String> {
     let report = work(py, &sources, threads, |catalogue| {
-        Job::new(recipe.read()?, catalogue)?.check()
+        Job::new(recipe.read()?, catalogue)?.check(&control)
     })?;
     Ok(to_json(&report))
 }

@@ -98,6 +98,21 @@ def test_check_makes_no_path_and_estimates_it(part):
     assert report["revolutions"] == pytest.approx(turnpath.run(part).report["revolutions"], rel=0.05)
 
 
+def test_a_check_tells_its_progress_and_may_be_ended(part):
+    stages = []
+    turnpath.check(part, progress=lambda stage, done, total: stages.append(stage))
+    assert stages
+
+    class Enough(Exception):
+        pass
+
+    def stop(stage, done, total):
+        raise Enough
+
+    with pytest.raises(Enough):
+        turnpath.check(part, progress=stop)
+
+
 def test_a_wrong_recipe_has_its_place_and_its_help(part, tmp_path):
     file = tmp_path / "mirror.toml"
     import tomli_w

@@ -4,7 +4,7 @@ use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::toolpath::Section;
 use turnpath_core::{DEG, Part, Tolerance, Tool};
-use turnpath_pipeline::{Estimate, PathSample, largest_nose, sample_path};
+use turnpath_pipeline::{Estimate, Observer, PathSample, largest_nose, sample_path};
 use turnpath_post::PathWriter;
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
@@ -20,15 +20,14 @@ use crate::posts::NotCarried;
 use crate::program::Program;
 use crate::region::region;
 use crate::remarks::PathSubject;
-use crate::rough_paths::RoughJob;
 use crate::sampled_stretches::sampled_stretches;
 
 impl Job {
     /// What the part asks of the tool, and what the path and its rough paths will be, without making them.
     ///
     /// # Errors
-    /// When a strategy fails.
-    pub fn check(&self) -> Result<CheckReport, Error> {
+    /// When a strategy fails, when a program cannot carry the path, and when the observer cancels.
+    pub fn check(&self, observer: &dyn Observer) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
         let task = &self.preparation.task;
         let find_nose =
@@ -36,12 +35,12 @@ impl Job {
         let find_shape = || part_shape::shape(&self.recipe, &self.chain.surface, &task.part);
         let look_at_data = || self.data_remarks(task.tolerance.interpolation);
         let (sampled, (nose, (shape, on_data))) = rayon::join(
-            || self.sample(),
+            || self.sample(observer),
             || rayon::join(find_nose, || rayon::join(find_shape, look_at_data)),
         );
         let ((expected, sample), nose) = (sampled?, nose?);
         let rough_jobs = self.rough_jobs()?;
-        let rough_paths = rough_jobs.iter().map(RoughJob::expected);
+        let rough_paths = rough_jobs.iter().map(|rough| rough.expected(observer));
         let path = PathSubject {
             tolerance: task.tolerance,
             cutting_time: expected.cutting_time,
@@ -74,14 +73,19 @@ impl Job {
     /// What the path and its files will be.
     ///
     /// # Errors
-    /// When a strategy fails, or a program cannot carry the path.
-    pub(crate) fn expected(&self) -> Result<report::Estimate, Error> {
-        let (expected, sample) = self.sample()?;
+    /// When a strategy fails, when a program cannot carry the path, and when the observer cancels.
+    pub(crate) fn expected(&self, observer: &dyn Observer) -> Result<report::Estimate, Error> {
+        let (expected, sample) = self.sample(observer)?;
         self.estimate(&expected, &sample)
     }
 
-    fn sample(&self) -> Result<(Estimate, PathSample), Error> {
-        let sample = sample_path(&self.chain, &self.path_preparation(), self.options());
+    fn sample(&self, observer: &dyn Observer) -> Result<(Estimate, PathSample), Error> {
+        let sample = sample_path(
+            &self.chain,
+            &self.path_preparation(),
+            self.options(),
+            observer,
+        );
         sample.map_err(|error| of_pipeline(&self.recipe, error))
     }
 

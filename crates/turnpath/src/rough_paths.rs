@@ -46,11 +46,11 @@ impl RoughJob {
     }
 
     /// What the path and its files will be.
-    pub fn expected(&self) -> Result<RoughPathEstimate, Error> {
+    pub fn expected(&self, observer: &dyn Observer) -> Result<RoughPathEstimate, Error> {
         Ok(RoughPathEstimate {
             name: self.rough.name.clone(),
             allowance: self.rough.allowance,
-            expected: self.job.expected()?,
+            expected: self.job.expected(observer)?,
         })
     }
 

@@ -234,6 +234,7 @@ def check(
     strategies: Iterable[Any] = (),
     *,
     plugins: Iterable[PathLike] = (),
+    progress: Progress | None = None,
     threads: int = 0,
     time_limit: float | None = TIME_LIMIT,
 ) -> Report:
@@ -243,9 +244,10 @@ def check(
     native = as_recipe(recipe, set)._native()
     session = Session(time_limit)
     found = sources(strategies, plugins, session)
-    return Report(
-        session.work(lambda: _turnpath.check(native, found, threads=count)), session
+    text = session.work(
+        lambda: _turnpath.check(native, found, session.control, threads=count), progress
     )
+    return Report(text, session)
 
 
 def verify(

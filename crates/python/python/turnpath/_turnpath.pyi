@@ -154,7 +154,9 @@ def run(
     map: tuple[_File, int] | None = None,
     threads: int = 0,
 ) -> tuple[str, list[_File], dict[str, NDArray[Any]] | None, list[tuple[str, bytes]]]: ...
-def check(recipe: _Recipe, sources: _Sources, *, threads: int = 0) -> str: ...
+def check(
+    recipe: _Recipe, sources: _Sources, control: Control, *, threads: int = 0
+) -> str: ...
 def verify(
     recipe: _Recipe,
     sources: _Sources,

@@ -1,4 +1,4 @@
-//! A run that its observer cancels ends at once and leaves nothing behind.
+//! A run or a check that its observer cancels ends at once, and a run leaves nothing behind.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -33,6 +33,21 @@ impl Observer for CancelAt {
 
     fn is_cancelled(&self) -> bool {
         self.seen.load(Ordering::Relaxed) >= self.times
+    }
+}
+
+#[test]
+fn a_check_can_be_cancelled_in_every_stage() {
+    let observers = [
+        CancelAt::new(|stage| matches!(stage, Stage::Law), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Refine(1)), 1),
+        CancelAt::new(|stage| matches!(stage, Stage::Sample), 1),
+    ];
+    let job = job(&REFINED_LATE);
+    for (index, observer) in observers.iter().enumerate() {
+        let checked = job.check(observer);
+        let is_cancelled = matches!(checked, Err(Error::Cancelled));
+        assert!(is_cancelled, "stage {index}: {:?}", checked.err());
     }
 }
 

@@ -102,7 +102,7 @@ fn round_trip<T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(rep
 #[test]
 fn the_report_of_a_check_is_the_same_when_it_is_read_back() {
     for sets in VARIANTS {
-        round_trip(&job(sets).check().unwrap());
+        round_trip(&job(sets).check(&SilentObserver).unwrap());
     }
 }
 

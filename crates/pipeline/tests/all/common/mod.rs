@@ -350,7 +350,7 @@ impl Task {
     pub fn sample(&self) -> (Estimate, PathSample) {
         let chain = self.chain();
         let preparation = prepare(&chain.locus_links(), self.spec()).expect("a tool that fits");
-        sample_path(&chain, &preparation, self.options()).expect("a sample")
+        sample_path(&chain, &preparation, self.options(), &SilentObserver).expect("a sample")
     }
 
     /// The first touch of the task's tool.
