@@ -128,6 +128,7 @@ fn message_of(stage: Stage) -> String {
         Stage::Law => "planning the feed".to_owned(),
         Stage::Refine(round) => format!("playing back, round {round}"),
         Stage::Sample => "making a sample of the path".to_owned(),
+        Stage::Part => "looking at the part".to_owned(),
         Stage::Write => "measuring and writing".to_owned(),
         Stage::ReadBack => "reading programs back".to_owned(),
         Stage::Measure => "measuring the file".to_owned(),

@@ -9,6 +9,8 @@ use crate::long::program;
 use crate::python::{script, with_packages};
 use crate::step::{Outcome, Step};
 
+/// What times the programs.
+const SCRIPT: &str = "tests/reference/speed/bench.py";
 /// The crates with built-in strategies. Each is a library that a program can load.
 const BUILT_IN: [&str; 13] = [
     "atpg",
@@ -36,8 +38,12 @@ const OTHERS: [&str; 7] = [
     "two-speeds",
 ];
 
-/// Times everything; `words` go to the script.
+/// Times everything; `words` go to the script. What the words are is said without building anything.
 pub fn run_bench(words: &[&str]) -> Vec<Step> {
+    if words.iter().any(|word| matches!(*word, "--help" | "-h")) {
+        let help = || run(script(SCRIPT, &[Path::new("--help")]));
+        return vec![Step::run("bench", help)];
+    }
     let bench = || {
         with_packages(&["numpy", "numba"], || {
             bench(words).unwrap_or_else(|end| end)
@@ -60,10 +66,7 @@ fn bench(words: &[&str]) -> Result<Outcome, Outcome> {
     ]))?;
     let plugins = plugins(&release.join("deps"))?;
     let chain = release.join("examples").join("chain");
-    let mut call = script(
-        "tests/reference/speed/bench.py",
-        &[&own, &chain, &bare, &plugins],
-    );
+    let mut call = script(SCRIPT, &[&own, &chain, &bare, &plugins]);
     call.args(words);
     Ok(run(call))
 }

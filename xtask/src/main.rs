@@ -24,7 +24,7 @@ cargo xtask COMMAND
   long --list         what they are
   reference [NAME…]   makes the reference figures again, or those of these names
   bench [WORD…]       times the program against scripts of the same chain, for docs/benchmarks.md;
-                      --long adds 10⁸ points, --only PART… times parts and writes nothing
+                      `bench --help` has the words
   fuzz [NAME…]        fuzzes the targets of tests/fuzz with cargo-fuzz, or those of these names
   msrv                checks the workspace with the oldest Rust version that it promises
   deny                checks licences, bans and sources of all dependencies with cargo-deny
@@ -35,12 +35,11 @@ A step whose tool or package is not installed is skipped, and the report says so
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let asks_for_help = |word: &&str| matches!(*word, "--help" | "-h" | "help");
-    if words.iter().any(asks_for_help) {
-        println!("{HELP}");
-        return ExitCode::SUCCESS;
-    }
     let steps: Vec<Step> = match words.as_slice() {
+        ["--help" | "-h" | "help"] => {
+            println!("{HELP}");
+            return ExitCode::SUCCESS;
+        }
         ["long", "--list"] => {
             println!("{}", long::list());
             return ExitCode::SUCCESS;

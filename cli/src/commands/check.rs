@@ -16,10 +16,13 @@ pub fn check(args: &CheckArgs, catalogue: Catalogue) -> Outcome {
     let (recipe, catalogue) = setup::trusted_recipe(&args.recipe, catalogue)?;
     // A thread of the pool begins. The first thread would only hand its parts over and wait. The two threads that
     // then wake up share one processor now and then, for some milliseconds.
-    let bar = Bar::new(&args.work);
-    let check = || Job::new(recipe.clone(), &catalogue)?.check(&bar);
-    let report = rayon::scope(|_| check());
-    bar.clear();
+    let report = rayon::scope(|_| {
+        let job = Job::new(recipe.clone(), &catalogue)?;
+        let bar = Bar::new(&args.work);
+        let report = job.check(&bar);
+        bar.clear();
+        report
+    });
     match report {
         Ok(report) => print_report(args.work.answer(), &report, text::check)?,
         Err(error) => {

@@ -3,7 +3,7 @@
 use crate::{Direction, Machine, Overrun, Part, RadialRange, Task, Tolerance, Tool};
 
 /// A task as a recipe describes it, before the range of ρ is known.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct JobSpec {
     /// The part.
     pub part: Part,

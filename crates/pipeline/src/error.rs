@@ -79,7 +79,7 @@ pub enum PipelineError {
     #[error("the path is too long: {0}")]
     TooLong(PathSize),
     /// The observer cancelled the run.
-    #[error("the run was cancelled")]
+    #[error("the work was cancelled")]
     Cancelled,
 }
 

@@ -4,7 +4,8 @@ use crate::{PipelineError, Result};
 
 /// A stage of a run, or of a check. The stages of a run come in this order, but for a path that needs refinement: it
 /// is begun to be written, then refined, and then written from its beginning. A check plans the law, plays a sample
-/// back if the path is refined, and makes the sample.
+/// back if the path is refined, makes the sample, and looks at the part. Then come the stages of each rough path, up to
+/// its sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
     /// A path made for a tolerance of form; the count of paths is from 1. The stages of the path
@@ -14,6 +15,9 @@ pub enum Stage {
     Law,
     /// Making some blocks of the path, from which its size is known before it is made.
     Sample,
+    /// Looking at the part, as far as that was not done beside the stages before: the largest nose, heights and
+    /// slopes.
+    Part,
     /// Making, playing back, measuring and writing the path.
     Write,
     /// Playing the path back and refining it; the round counts from 1. Its blocks are those that this
@@ -40,8 +44,8 @@ pub trait Observer: Sync {
     /// meanwhile.
     fn measures(&self, _begins: bool) {}
     /// Whether the run should stop. The run asks between the steps of the law, before each batch of
-    /// blocks, and before each block that it gives to the sink. Where the answer is yes it ends
-    /// with [`PipelineError::Cancelled`].
+    /// blocks, and before each block that it gives to the sink. A sample asks before each of its
+    /// blocks. Where the answer is yes the work ends with [`PipelineError::Cancelled`].
     fn is_cancelled(&self) -> bool {
         false
     }

@@ -61,6 +61,7 @@ impl Observer for Control {
             Stage::Law => "law".to_owned(),
             Stage::Refine(round) => format!("refine {round}"),
             Stage::Sample => "sample".to_owned(),
+            Stage::Part => "part".to_owned(),
             Stage::Write => "write".to_owned(),
             Stage::ReadBack => "read back".to_owned(),
             Stage::Measure => "measure".to_owned(),

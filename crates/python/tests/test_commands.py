@@ -13,6 +13,10 @@ import numpy as np
 import pytest
 
 import turnpath
+from turnpath import _turnpath
+from turnpath._recipe import as_recipe
+from turnpath._session import Session
+from turnpath._strategies import sources
 
 
 def test_a_run_gives_report_verdict_and_columns(part):
@@ -98,10 +102,18 @@ def test_check_makes_no_path_and_estimates_it(part):
     assert report["revolutions"] == pytest.approx(turnpath.run(part).report["revolutions"], rel=0.05)
 
 
+def test_a_check_hears_that_it_is_to_end(part):
+    session = Session()
+    session.control.cancel()
+    native, found = as_recipe(part, None)._native(), sources((), (), session)
+    with pytest.raises(turnpath.Cancellation):
+        _turnpath.check(native, found, session.control)
+
+
 def test_a_check_tells_its_progress_and_may_be_ended(part):
     stages = []
-    turnpath.check(part, progress=lambda stage, done, total: stages.append(stage))
-    assert stages
+    turnpath.check(part, progress=lambda stage, done, total: stages.append((stage, done <= total)))
+    assert stages and all(within for _, within in stages)
 
     class Enough(Exception):
         pass

@@ -249,7 +249,7 @@ impl Recipe {
         }
     }
 
-    /// The part, tool, tolerances and machine, before the range of ρ is known.
+    /// Part, tool, tolerances, overrun, direction, largest spindle speed and machine, for the pipeline.
     pub fn job_spec(&self) -> JobSpec {
         JobSpec {
             part: self.part,

@@ -4,7 +4,7 @@ use turnpath_core::interference::{Extreme, Interference};
 use turnpath_core::largest_nose::LargestNose;
 use turnpath_core::toolpath::Section;
 use turnpath_core::{DEG, Part, Tolerance, Tool};
-use turnpath_pipeline::{Estimate, Observer, PathSample, largest_nose, sample_path};
+use turnpath_pipeline::{Estimate, Observer, PathSample, Stage, largest_nose, sample_path};
 use turnpath_post::PathWriter;
 use turnpath_report as report;
 use turnpath_report::{CheckReport, LimitFigure};
@@ -26,7 +26,8 @@ impl Job {
     /// What the part asks of the tool, and what the path and its rough paths will be, without making them.
     ///
     /// # Errors
-    /// When a strategy fails, when a program cannot carry the path, and when the observer cancels.
+    /// When a strategy fails, when a program cannot carry the path, and when the observer cancels. The searches on the
+    /// part do not ask the observer.
     pub fn check(&self, observer: &dyn Observer) -> Result<CheckReport, Error> {
         let failed = |error| of_pipeline(&self.recipe, error);
         let task = &self.preparation.task;
@@ -35,10 +36,17 @@ impl Job {
         let find_shape = || part_shape::shape(&self.recipe, &self.chain.surface, &task.part);
         let look_at_data = || self.data_remarks(task.tolerance.interpolation);
         let (sampled, (nose, (shape, on_data))) = rayon::join(
-            || self.sample(observer),
+            || {
+                let sampled = self.sample(observer);
+                observer.begin(Stage::Part, 0);
+                sampled
+            },
             || rayon::join(find_nose, || rayon::join(find_shape, look_at_data)),
         );
         let ((expected, sample), nose) = (sampled?, nose?);
+        if observer.is_cancelled() {
+            return Err(Error::Cancelled);
+        }
         let rough_jobs = self.rough_jobs()?;
         let rough_paths = rough_jobs.iter().map(|rough| rough.expected(observer));
         let path = PathSubject {

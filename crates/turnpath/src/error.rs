@@ -171,7 +171,7 @@ pub enum Error {
         why: String,
     },
     /// The observer cancelled the work.
-    #[error("the run was cancelled")]
+    #[error("the work was cancelled")]
     Cancelled,
 }
 

@@ -101,7 +101,7 @@ fn a_run_that_is_cancelled_as_a_stage_begins_takes_nothing() {
         assert!(sink.deliveries.is_empty(), "{stage:?}");
     }
     let message = PipelineError::Cancelled.to_string();
-    assert_eq!(message, "the run was cancelled");
+    assert_eq!(message, "the work was cancelled");
 }
 
 /// Cancels once its sink has taken so many blocks.

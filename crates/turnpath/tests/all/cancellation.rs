@@ -51,6 +51,43 @@ fn a_check_can_be_cancelled_in_every_stage() {
     }
 }
 
+#[test]
+fn a_check_can_be_cancelled_in_the_sample_of_a_rough_path() {
+    let observer = CancelAt::new(|stage| matches!(stage, Stage::Sample), 2);
+    let job = job(&["passes.rough={ allowance = \"30 um\" }"]);
+    let checked = job.check(&observer);
+    let is_cancelled = matches!(checked, Err(Error::Cancelled));
+    assert!(is_cancelled, "{:?}", checked.err());
+}
+
+/// Blocks that stages announced and that were done.
+#[derive(Default)]
+struct BlockCount {
+    announced: AtomicU64,
+    done: AtomicU64,
+}
+
+impl Observer for BlockCount {
+    fn begin(&self, _: Stage, blocks: u64) {
+        self.announced.fetch_add(blocks, Ordering::Relaxed);
+    }
+
+    fn advance(&self, blocks: u64) {
+        self.done.fetch_add(blocks, Ordering::Relaxed);
+    }
+}
+
+#[test]
+fn a_check_does_as_many_blocks_as_its_stages_announce() {
+    let observer = BlockCount::default();
+    job(&REFINED_LATE).check(&observer).unwrap();
+    let [announced, done] =
+        [&observer.announced, &observer.done].map(|count| count.load(Ordering::Relaxed));
+    assert_eq!(announced, done);
+    // The sample has sixteen blocks, and each of them is played back at least once.
+    assert!(announced >= 32, "{announced}");
+}
+
 /// The second path for a form can be cancelled too: nothing of the first one stays.
 #[test]
 fn a_run_can_be_cancelled_while_a_path_is_made_again() {
