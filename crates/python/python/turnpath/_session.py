@@ -92,6 +92,8 @@ class Session:
         self._lock = threading.Lock()
         self._calls: dict[int, list[_Call]] = {}
         self._failures: list[_Failure] = []
+        #: Whether the work was stopped from here. Then no call of a strategy begins.
+        self._stopped = False
 
     def guard(self, strategy: Any, function: Callable[..., Any]) -> Callable[..., Any]:
         """The function, whose calls are known and whose exceptions are kept."""
@@ -101,6 +103,8 @@ class Session:
             call = _Call(strategy, time.monotonic())
             try:
                 with self._lock:
+                    if self._stopped:
+                        raise Interruption
                     self._calls.setdefault(thread, []).append(call)
                 return function(*arguments)
             except _FailureText:
@@ -198,6 +202,8 @@ class Session:
                     return error, []
                 stop = error
                 self.control.cancel()
+                with self._lock:
+                    self._stopped = True
                 self._end_calls(Interruption, lambda call: True)
             now = time.monotonic()
             if self.time_limit is not None:
