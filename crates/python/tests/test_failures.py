@@ -53,6 +53,15 @@ def test_whatever_a_strategy_raises_is_the_cause(part, error):
     assert type(error).__name__ in str(found)
 
 
+def test_an_error_without_a_text_has_its_name_alone(part):
+    @sampler
+    def wrong(path, block):
+        raise ValueError
+
+    text = " ".join(str(failure(part, wrong)).split())
+    assert "raised ValueError (test_failures.py, line" in text, text
+
+
 def test_the_compensator_is_blamed_for_its_own_error(part):
     """A sampler hears of it as an error of its question."""
     cause = ZeroDivisionError("in the compensator")

@@ -127,7 +127,8 @@ class Session:
         elif isinstance(error, Interruption):
             text = "was interrupted"
         else:
-            text = f"raised {type(error).__name__}: {_text_of(error)}{place}"
+            said = _text_of(error)
+            text = f"raised {type(error).__name__}{': ' if said else ''}{said}{place}"
         # The native part takes no halves of surrogates.
         text = text.encode("utf-8", "backslashreplace").decode()
         with self._lock:
