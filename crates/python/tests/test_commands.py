@@ -102,7 +102,7 @@ def test_check_makes_no_path_and_estimates_it(part):
     assert report["revolutions"] == pytest.approx(turnpath.run(part).report["revolutions"], rel=0.05)
 
 
-def test_a_check_tells_its_stages_and_hears_that_it_is_to_end(part):
+def test_a_check_ends_at_the_part_and_hears_that_it_is_to_end(part):
     session = Session()
     native, found = as_recipe(part, None)._native(), sources((), (), session)
     _turnpath.check(native, found, session.control)
@@ -113,10 +113,14 @@ def test_a_check_tells_its_stages_and_hears_that_it_is_to_end(part):
 
 
 def test_what_the_progress_of_a_check_raises_comes_from_the_check(part):
-    def stop(stage, done, total):
-        raise InterruptedError
+    class Enough(Exception):
+        pass
 
-    with pytest.raises(InterruptedError):
+    def stop(stage, done, total):
+        assert done <= total
+        raise Enough
+
+    with pytest.raises(Enough):
         turnpath.check(part, progress=stop)
 
 

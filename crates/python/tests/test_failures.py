@@ -235,3 +235,43 @@ def test_only_a_call_that_is_late_is_named(part, monkeypatch):
         one.work(command)
     gate.set()
     assert "`late`" in str(caught.value) and "`early`" not in str(caught.value)
+
+
+class Enough(Exception):
+    pass
+
+
+def stop(stage, done, total):
+    raise Enough
+
+
+class Patient:
+    slot, name = "sampler", "patient"
+
+
+def endless():
+    while True:
+        time.sleep(0.01)
+
+
+def one_after_the_other(guard):
+    with contextlib.suppress(Exception):
+        guard(Patient, endless)()
+    guard(Patient, endless)()
+
+
+def one_within_the_other(guard):
+    def asks():
+        with contextlib.suppress(Exception):
+            guard(Patient, endless)()
+        endless()
+
+    guard(Patient, asks)()
+
+
+@pytest.mark.parametrize("calls", [one_after_the_other, one_within_the_other])
+def test_every_call_hears_that_the_work_was_stopped(calls):
+    one = turnpath._session.Session(time_limit=3)
+    with pytest.raises(Enough):
+        one.work(lambda: calls(one.guard), stop)
+    assert [type(failure.error).__name__ for failure in one._failures] == ["Interruption"] * 2

@@ -92,8 +92,6 @@ class Session:
         self._lock = threading.Lock()
         self._calls: dict[int, list[_Call]] = {}
         self._failures: list[_Failure] = []
-        #: Whether the work was stopped from here. Then no call of a strategy begins.
-        self._stopped = False
 
     def guard(self, strategy: Any, function: Callable[..., Any]) -> Callable[..., Any]:
         """The function, whose calls are known and whose exceptions are kept."""
@@ -103,8 +101,6 @@ class Session:
             call = _Call(strategy, time.monotonic())
             try:
                 with self._lock:
-                    if self._stopped:
-                        raise Interruption
                     self._calls.setdefault(thread, []).append(call)
                 return function(*arguments)
             except _FailureText:
@@ -128,7 +124,7 @@ class Session:
             text = "was interrupted"
         else:
             said = _text_of(error)
-            text = f"raised {type(error).__name__}{': ' if said else ''}{said}{place}"
+            text = f"raised {type(error).__name__}" + (f": {said}" if said else "") + place
         # The native part takes no halves of surrogates.
         text = text.encode("utf-8", "backslashreplace").decode()
         with self._lock:
@@ -203,8 +199,8 @@ class Session:
                     return error, []
                 stop = error
                 self.control.cancel()
-                with self._lock:
-                    self._stopped = True
+            if stop is not None:
+                # At each look, for calls may begin after the stop, and outer ones go on after inner ones.
                 self._end_calls(Interruption, lambda call: True)
             now = time.monotonic()
             if self.time_limit is not None:
