@@ -200,7 +200,7 @@ class Session:
                 stop = error
                 self.control.cancel()
             if stop is not None:
-                # At each look, for calls may begin after the stop, and outer ones go on after inner ones.
+                # At each look: a call may begin after the stop, and an outer call goes on after its inner one.
                 self._end_calls(Interruption, lambda call: True)
             now = time.monotonic()
             if self.time_limit is not None:
