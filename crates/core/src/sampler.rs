@@ -10,7 +10,9 @@ use crate::{NodeList, Path, Result, Revolutions};
 pub enum Dependence {
     /// The answer depends on the block alone.
     Local,
-    /// The answer also depends on this many nodes before and after the block.
+    /// The answer also depends on this many nodes before and after the block. A velocity depends on so many nodes
+    /// on either side of its own, and on no others of its block: refinement plays no segment again whose ends lie
+    /// farther from all new nodes.
     Overlap(usize),
     /// The answer depends on everything before the block. The host processes the blocks in order
     /// and passes a small state from one to the next.

@@ -48,6 +48,7 @@ mod segment_state;
 mod sink;
 mod size;
 mod spindle;
+mod stale;
 mod tail;
 mod taper;
 mod walls;

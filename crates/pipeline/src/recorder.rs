@@ -118,7 +118,7 @@ impl<'a, S: Sink + ?Sized> Recorder<'a, S> {
         let mut played = Vec::new();
         for (block, (playback, states)) in blocks.into_iter().zip(reviews) {
             holds &= !states.contains(&SegmentState::Beyond);
-            refinement.take(block.index, block.owner.len(), states);
+            refinement.take(block.index, states);
             played.push((self.task(block), playback));
         }
         if !holds {

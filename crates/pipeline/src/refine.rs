@@ -2,9 +2,9 @@
 //! also halves those where X's own error would raise a cusp beyond the residual ([`crate::drift`]).
 //!
 //! Refinement keeps two bytes for each sampler segment between rounds: how often the segment is
-//! halved, and its state after the last playback. Only blocks that changed, or whose neighbours
-//! did, are made again. The first round may be the making of the path itself: who plays a block
-//! there tells the refinement its states ([`Refinement::take`]).
+//! halved, and its state after the last playback. A block is made again if one of its segments is
+//! [stale](crate::stale). Only its stale segments are played. The first round may be the making of
+//! the path itself: who plays a block there tells the refinement its states ([`Refinement::take`]).
 //!
 //! With a spline, the error of a long segment rises when its neighbour is halved. Where all
 //! segments are near the tolerance, halving only those beyond it would move the border between
@@ -23,6 +23,7 @@ use crate::observer::{Observer, Stage, stop_if_cancelled};
 use crate::order::one_at_a_time;
 use crate::plan::Plan;
 use crate::segment_state::{SegmentState, play};
+use crate::stale::HalvedPath;
 
 /// Most rounds. A segment ends as 1/4096 of the sampler's at the least.
 pub const MOST_ROUNDS: u32 = 12;
@@ -39,8 +40,6 @@ const GAP: usize = 1;
 pub struct Refinement {
     depths: Vec<Depths>,
     states: Vec<Vec<SegmentState>>,
-    /// The nodes of each block.
-    counts: Vec<usize>,
     /// Whether each block was played.
     played: Vec<bool>,
 }
@@ -57,7 +56,6 @@ pub fn refine(
 ) -> Result<Vec<Depths>> {
     let mut refinement = Refinement::new(plan);
     refinement.play_round(1, plan, batch, chosen, observer)?;
-    refinement.count_others();
     refinement.finish(plan, batch, chosen, observer)
 }
 
@@ -67,32 +65,25 @@ impl Refinement {
         Self {
             depths: vec![Depths::new(); plan.blocks()],
             states: vec![Vec::new(); plan.blocks()],
-            counts: vec![0; plan.blocks()],
             played: vec![false; plan.blocks()],
         }
     }
 
-    /// Takes what the playback of a block of so many nodes shows of its segments.
-    pub fn take(&mut self, block: usize, nodes: usize, states: Vec<SegmentState>) {
-        self.counts[block] = nodes;
+    /// Takes what the playback of a block shows of its segments.
+    pub fn take(&mut self, block: usize, states: Vec<SegmentState>) {
         self.states[block] = states;
         self.played[block] = true;
     }
 
-    /// Lets a block that was not played have as many nodes as the one before it.
-    fn count_others(&mut self) {
-        for (index, is_played) in self.played.iter().enumerate().skip(1) {
-            if !is_played {
-                self.counts[index] = self.counts[index - 1];
-            }
-        }
-    }
-
-    /// Plays blocks back.
+    /// Plays the stale segments of blocks back.
     pub fn play(&mut self, plan: &Plan<'_>, blocks: &[BlockPoints]) -> Result<()> {
-        let played = one_at_a_time(blocks.par_iter().map(|block| play(plan, block)))?;
+        let known = |block: &BlockPoints| self.states[block.index].as_slice();
+        let played = blocks
+            .par_iter()
+            .map(|block| play(plan, block, known(block)));
+        let played = one_at_a_time(played)?;
         for (block, states) in blocks.iter().zip(played) {
-            self.take(block.index, block.owner.len(), states);
+            self.take(block.index, states);
         }
         Ok(())
     }
@@ -106,20 +97,28 @@ impl Refinement {
         observer: &dyn Observer,
     ) -> Result<Vec<Depths>> {
         let dependence = plan.chain.velocity.strategy.dependence();
+        let blocks = 0..plan.blocks();
+        let sources: Vec<usize> = blocks.map(|index| plan.halved_as(index)).collect();
         for round in 1..=MOST_ROUNDS {
             spread(&mut self.states, &self.played, reach(dependence, round));
             let halved = halve(&mut self.depths, &mut self.states);
             if halved.is_empty() || round == MOST_ROUNDS {
                 break;
             }
-            let mut dirty = affected(dependence, &self.counts, halved.into_iter());
-            dirty.retain(|index| chosen.binary_search(index).is_ok());
-            self.play_round(round + 1, plan, batch, &dirty, observer)?;
+            let path = HalvedPath {
+                depths: &self.depths,
+                sources: &sources,
+                halved: &halved,
+            };
+            path.spread_stale(&mut self.states, dependence);
+            let is_stale = |index: &usize| self.states[*index].contains(&SegmentState::Stale);
+            let stale: Vec<usize> = chosen.iter().copied().filter(is_stale).collect();
+            self.play_round(round + 1, plan, batch, &stale, observer)?;
         }
         Ok(self.depths)
     }
 
-    /// Makes these blocks and plays them back.
+    /// Makes these blocks and plays their stale segments back.
     fn play_round(
         &mut self,
         round: u32,
@@ -238,8 +237,8 @@ impl Halving {
     }
 }
 
-/// Halves the segments that are beyond the aim or reached by a halving. Gives the blocks that
-/// changed.
+/// Halves the segments that are beyond the aim or reached by a halving, which makes them stale. Gives
+/// the blocks that changed.
 fn halve(depths: &mut [Depths], states: &mut [Vec<SegmentState>]) -> Vec<usize> {
     let mut changed = Vec::new();
     for (index, (depths, states)) in depths.iter_mut().zip(states).enumerate() {
@@ -251,47 +250,13 @@ fn halve(depths: &mut [Depths], states: &mut [Vec<SegmentState>]) -> Vec<usize> 
         changed.push(index);
         depths.resize(states.len(), 0);
         for (depth, state) in depths.iter_mut().zip(states.iter_mut()) {
-            *depth += u8::from(is_halved(state));
-            *state = SegmentState::Calm;
+            if is_halved(state) {
+                *depth += 1;
+                *state = SegmentState::Stale;
+            }
         }
     }
     changed
-}
-
-/// The blocks that change when the `halved` ones do; `counts` has the nodes of each block.
-fn affected(
-    dependence: Dependence,
-    counts: &[usize],
-    halved: impl Iterator<Item = usize>,
-) -> Vec<usize> {
-    let mut is_affected = vec![false; counts.len()];
-    for index in halved {
-        let range = match dependence {
-            Dependence::Sequential => 0..counts.len(),
-            // The block before ends at this block's first node, which no halving moves.
-            Dependence::Local => index..index + 1,
-            Dependence::Overlap(overlap) => within_overlap(overlap, counts, index),
-        };
-        is_affected[range].fill(true);
-    }
-    (0..counts.len())
-        .filter(|index| is_affected[*index])
-        .collect()
-}
-
-/// The blocks that see a node of block `index` among the `overlap` nodes of their neighbours.
-fn within_overlap(overlap: usize, counts: &[usize], index: usize) -> Range<usize> {
-    let (mut first, mut last) = (index, index + 1);
-    let (mut before, mut after) = (0, 0);
-    while first > 0 && before <= overlap {
-        first -= 1;
-        before += counts[first];
-    }
-    while last < counts.len() && after <= overlap {
-        after += counts[last];
-        last += 1;
-    }
-    first..last
 }
 
 /// Runs of consecutive blocks.
@@ -311,20 +276,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn small_blocks_do_not_hide_what_lies_behind_them() {
-        let affected = |dependence, counts: &[usize], index: usize| {
-            affected(dependence, counts, std::iter::once(index))
-        };
-        let overlap = Dependence::Overlap(64);
-        assert_eq!(affected(overlap, &[500; 5], 2), [1, 2, 3]);
-        assert_eq!(affected(overlap, &[500, 500, 40, 500, 1], 3), [1, 2, 3, 4]);
-        assert_eq!(affected(Dependence::Local, &[500; 3], 1), [1]);
-        assert_eq!(affected(Dependence::Sequential, &[500; 3], 2), [0, 1, 2]);
-    }
-
-    #[test]
     fn a_halving_spreads_over_neighbours_that_are_near_the_aim() {
-        use SegmentState::{Beyond, Calm, Near, Reached};
+        use SegmentState::{Beyond, Calm, Near, Reached, Stale};
         let mut states = vec![vec![Near, Calm, Near, Near], vec![Near, Beyond, Near, Calm]];
         spread(&mut states, &[true; 2], 2);
         assert_eq!(states[0], [Near, Calm, Near, Reached]);
@@ -332,6 +285,8 @@ mod tests {
         let mut depths = vec![Depths::new(); 2];
         assert_eq!(halve(&mut depths, &mut states), [0, 1]);
         assert_eq!(depths, [vec![0, 0, 0, 1], vec![1, 1, 1, 0]]);
+        assert_eq!(states[0], [Near, Calm, Near, Stale]);
+        assert_eq!(states[1], [Stale, Stale, Stale, Calm]);
     }
 
     /// Where every second segment is halved already, a halving passes over the calm ones between.
@@ -359,19 +314,6 @@ mod tests {
             states,
             [vec![Reached], none, beyond, vec![Near], vec![Near]]
         );
-    }
-
-    #[test]
-    fn a_block_that_was_not_played_counts_as_the_one_before_it() {
-        let mut refinement = Refinement {
-            depths: vec![Depths::new(); 5],
-            states: vec![Vec::new(); 5],
-            counts: vec![7, 0, 0, 0, 0],
-            played: vec![true, false, false, false, false],
-        };
-        refinement.take(3, 40, Vec::new());
-        refinement.count_others();
-        assert_eq!(refinement.counts, [7, 7, 7, 40, 40]);
     }
 
     #[test]

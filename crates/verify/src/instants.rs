@@ -18,11 +18,12 @@ pub(crate) const BATCH: usize = 128;
 /// Segments whose cubics are played side by side.
 const TOGETHER: usize = 8;
 
-/// The batches of so many segments, of nearly one size: a short one at the end would fill no register.
-pub(crate) fn batches(segments: usize) -> impl Iterator<Item = Range<usize>> {
-    let size = segments.div_ceil(segments.div_ceil(BATCH).max(1)).max(1);
-    let firsts = (0..segments).step_by(size);
-    firsts.map(move |first| first..segments.min(first + size))
+/// The batches of some segments, of nearly one size: a short one at the end would fill no register.
+pub(crate) fn batches(segments: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    let count = segments.len();
+    let size = count.div_ceil(count.div_ceil(BATCH).max(1)).max(1);
+    let firsts = segments.clone().step_by(size);
+    firsts.map(move |first| first..segments.end.min(first + size))
 }
 
 /// The instants of a batch of segments: the first instant of all segments, the second one of all

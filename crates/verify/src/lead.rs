@@ -127,7 +127,7 @@ impl LeadMeter {
         };
         block.figures.axes = AxesMotion::of(points);
         let mut instants = InstantBatch::default();
-        for batch in batches(segments.len()) {
+        for batch in batches(0..segments.len()) {
             instants.play(points, batch.clone(), touch)?;
             for (i, segment) in segments[batch].iter().enumerate() {
                 let smallest = block.figures.include_segment(touch, &instants, i, segment);

@@ -1,5 +1,7 @@
 //! The meter: measures the blocks of a path separately and combines their figures in order.
 
+use std::ops::Range;
+
 use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{Radial, RadialRange, Result};
 
@@ -7,6 +9,7 @@ use crate::axes::AxesMotion;
 use crate::block_playback::BlockPlayback;
 use crate::coverage::CoverageFigures;
 use crate::cutting_speed::CuttingSpeed;
+use crate::largest_errors::{errors_against, errors_at_middles};
 use crate::machined::{Fan, FormScope, Lines, MachinedFigures, SectionPasses, SurfaceExtremes};
 use crate::measured_passes::MeasuredPasses;
 use crate::playback::{PlaybackFigures, play_back};
@@ -165,11 +168,41 @@ impl Meter {
         Ok(block)
     }
 
-    /// The largest |error| of each segment alone, mm, for refinement.
+    /// The largest |error| of each segment alone, mm.
+    ///
+    /// # Errors
+    /// When the surface fails.
     pub fn segment_errors(touch: &FirstTouch, points: &PathBlock) -> Result<Vec<f64>> {
         let mut errors = Vec::new();
         play_back(touch, points, &mut errors, |_| ())?;
         Ok(errors)
+    }
+
+    /// An |error| of each segment of some runs of a block, mm, one run after the other: the largest one, or one that lies
+    /// on the same side of all `limits`, mm. Refinement needs no more, and tops of sharp peaks take time.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn errors_against(
+        touch: &FirstTouch,
+        points: &PathBlock,
+        runs: &[Range<usize>],
+        limits: &[f64],
+    ) -> Result<Vec<f64>> {
+        errors_against(touch, points, runs, limits)
+    }
+
+    /// The |error| in the middle of each segment of some runs of a block, mm, one run after the other; 0 where it is not
+    /// known. The largest one is no smaller, and takes ten times as long.
+    ///
+    /// # Errors
+    /// When the surface fails.
+    pub fn errors_at_middles(
+        touch: &FirstTouch,
+        points: &PathBlock,
+        runs: &[Range<usize>],
+    ) -> Result<Vec<f64>> {
+        errors_at_middles(touch, points, runs)
     }
 
     /// Appends the path's next block. The block begins with the last control point of the block

@@ -1,16 +1,14 @@
 //! Playback: how far the played tool centre is from the true one, along z.
 
-use std::ops::Range;
-
 use turnpath_core::Result;
 use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::toolpath::{PathBlock, Segment};
 
-use crate::corners::at_corners;
+use crate::exactness::Exactness;
 use crate::instants::{BATCH, INSTANTS, InstantBatch, batches};
-use crate::sharp_peaks::sharp_peaks;
+use crate::largest_errors::largest_errors;
 use crate::spokes::SegmentErrors;
-use crate::touch::{FirstTouch, Touch};
+use crate::touch::FirstTouch;
 use crate::worst::Worst;
 
 /// The interpolation error of a path.
@@ -116,25 +114,16 @@ pub(crate) fn play_back(
     let mut figures = PlaybackFigures::default();
     let mut instants = InstantBatch::default();
     per_segment.clear();
-    for batch in batches(count) {
+    for batch in batches(0..count) {
         instants.play(points, batch.clone(), touch)?;
-        let corners = match touch.leaves_seams() {
-            true => corners(touch, points, batch.clone(), &instants)?,
-            false => Vec::new(),
-        };
         let squares = in_widest(Squares(&instants));
-        let mut largest: Vec<Worst> = Worst::of_batch(&instants).take(batch.len()).collect();
-        let peaks = sharp_peaks(touch, points, batch.clone(), (&instants, &largest))?;
-        for (index, top) in peaks {
-            largest[index] = largest[index].or(Some(top));
-        }
+        let largest = largest_errors(touch, points, batch.clone(), &instants, Exactness::Full)?;
         let largest = largest.into_iter().zip(squares);
         for (index, (number, (worst, square))) in batch.zip(largest).enumerate() {
             let duration = points.t[number + 1] - points.t[number];
             figures.square += square * duration / INSTANTS as f64;
             figures.time += duration;
             figures.longest_time = figures.longest_time.max(duration);
-            let worst = worst.or(corners.get(index).copied().flatten());
             figures.include(worst, || points.segment(number));
             seen(&SegmentPlayback {
                 number,
@@ -145,20 +134,6 @@ pub(crate) fn play_back(
         }
     }
     Ok(figures)
-}
-
-/// The largest error at the corners of each segment of a batch.
-fn corners(
-    touch: &FirstTouch,
-    points: &PathBlock,
-    batch: Range<usize>,
-    instants: &InstantBatch,
-) -> Result<Vec<Option<Worst>>> {
-    let touches: Vec<Touch> = (0..batch.len())
-        .flat_map(|index| instants.touches(index))
-        .collect();
-    let segments: Vec<Segment> = batch.filter_map(|number| points.segment(number)).collect();
-    at_corners(touch, &segments, &touches)
 }
 
 /// The loop that sums up the squares of the errors of each segment.

@@ -8,6 +8,7 @@ use turnpath_core::registers::{Loop, in_widest};
 use turnpath_core::toolpath::{PathBlock, Segment};
 
 use crate::between_instants::play;
+use crate::exactness::Exactness;
 use crate::instants::{BATCH, INSTANTS, InstantBatch};
 use crate::touch::{FirstTouch, TouchBuffers};
 use crate::worst::Worst;
@@ -17,6 +18,9 @@ use crate::worst::Worst;
 /// from the segment's ends by a sixth of it. The error of a cubic on a smooth path is nearly a quartic, whose sixth
 /// differences are zero.
 const SHARP: f64 = 0.02;
+/// How far a top may lie above the highest known error, in sixth differences. A single peak with straight flanks rises by
+/// one at the most; differences of several peaks may cancel in part.
+const HIGHEST: f64 = 2.0;
 /// Sixth differences below this are rounding or too small to matter, mm: a thousandth of a nanometre.
 const SMALL: f64 = 1e-9;
 /// Errors of a sixth difference.
@@ -34,18 +38,23 @@ struct Peak {
 }
 
 /// The tops of sharp peaks, each with the number of its segment in the batch. `largest` are the largest errors that are
-/// known of each segment. A peak that cannot be higher than these is left out.
+/// known of each segment. A peak that cannot be higher than these is left out, and so is one whose top makes no
+/// difference at this exactness.
 pub(crate) fn sharp_peaks(
     touch: &FirstTouch,
     points: &PathBlock,
     batch: Range<usize>,
     (instants, largest): (&InstantBatch, &[Worst]),
+    exactness: Exactness<'_>,
 ) -> Result<Vec<(usize, Worst)>> {
     let bends = in_widest(SixthDifferences(instants));
     let mut peaks = Vec::new();
     for (segment, (largest, bend)) in largest.iter().zip(bends).enumerate() {
-        if bend > SMALL.max(SHARP * largest.amount()) {
-            peaks.extend(peaks_of(instants, segment, largest.amount()));
+        let largest = largest.amount();
+        let may_be_sharp = bend > SMALL.max(SHARP * largest);
+        let known = largest.max(instants.error_at(segment, INSTANTS).abs());
+        if may_be_sharp && exactness.distinguishes(known, HIGHEST * bend) {
+            peaks.extend(peaks_of(instants, segment, largest));
         }
     }
     if peaks.is_empty() {

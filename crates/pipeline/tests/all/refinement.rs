@@ -2,10 +2,11 @@
 
 use std::sync::{Arc, Mutex};
 
-use crate::common::solvers::{Area, Exact, Halting, Resting, Spline};
+use crate::common::solvers::{Area, Exact, Halting, Resting, Saying, Spline};
 use crate::common::{Counting, K, Nodes, RESIDUAL, RIM, Task, even, feed_of, inward, straight};
 use turnpath_core::{
-    Centres, Compensator, Cut, FeedPiece, Path, Radial, Result, Revolutions, Scalar, VelocitySolver,
+    Centres, Compensator, Cut, Dependence, FeedPiece, Path, Radial, Result, Revolutions, Scalar,
+    VelocitySolver,
 };
 use turnpath_pipeline::{MOST_ROUNDS, SMALLEST_SEGMENT};
 
@@ -40,6 +41,36 @@ fn the_tolerance_holds_for_solvers_of_every_dependence() {
         let added = (path.len() - coarse.len()) as u64;
         assert_eq!(outcome.added_by_refine, added);
     }
+}
+
+/// A round plays all of a path with a sequential solver, and with others the segments that see new nodes. With no
+/// velocity of Z a segment is halved nine times, and its error is zero in the middle.
+#[test]
+fn playing_what_changed_halves_the_segments_that_playing_everything_halves() {
+    let refined_by = |velocity: Arc<dyn VelocitySolver>, tolerance: f64| {
+        let (path, outcome) = refined(velocity, tolerance).path();
+        assert!(outcome.figures.playback.max() <= tolerance);
+        assert!(outcome.added_by_refine > 1000);
+        path
+    };
+    let everything = Dependence::Sequential;
+    let exact = refined_by(Arc::new(Saying(Exact, everything)), 2e-6);
+    assert!(exact == refined_by(Arc::new(Exact), 2e-6));
+    assert!(exact == refined_by(Arc::new(Saying(Exact, Dependence::Overlap(1))), 2e-6));
+    // From the sixth round on halvings spread, but not with a local solver.
+    let resting = refined_by(Arc::new(Saying(Resting, everything)), 1e-4);
+    assert!(resting == refined_by(Arc::new(Saying(Resting, Dependence::Overlap(1))), 1e-4));
+}
+
+/// The velocities of a spline change by rounding with nodes that lie farther away.
+#[test]
+fn a_spline_that_sees_more_nodes_is_halved_as_one_that_sees_some() {
+    let nodes = |overlap: usize| {
+        let (path, outcome) = refined(Arc::new(Spline { overlap }), 2e-6).path();
+        assert!(outcome.added_by_refine > 1000);
+        path.c
+    };
+    assert!(nodes(64) == nodes(5000));
 }
 
 #[test]

@@ -86,7 +86,7 @@ fn differences(touch: &FirstTouch, points: &PathBlock) -> ([f64; 2], usize) {
         }
         count += usize::from(!alone[0].is_nan());
     };
-    for batch in batches(points.len() - 1) {
+    for batch in batches(0..points.len() - 1) {
         instants.play(points, batch.clone(), touch).unwrap();
         for (index, number) in batch.enumerate() {
             let segment = points.segment(number).unwrap();
@@ -148,7 +148,7 @@ fn where_the_surface_ends_touches_end() {
 #[test]
 fn batches_are_of_nearly_one_size_and_miss_no_segment() {
     for count in [0, 1, 127, 128, 129, 256, 300, 1000] {
-        let all: Vec<Range<usize>> = batches(count).collect();
+        let all: Vec<Range<usize>> = batches(0..count).collect();
         assert!(
             all.iter()
                 .all(|batch| batch.len() <= BATCH && !batch.is_empty())

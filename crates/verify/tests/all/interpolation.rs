@@ -1,10 +1,11 @@
 //! The interpolation error against the remainder of cubic interpolation and known figures.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::common::{AST5, SPEED, astigmatic_path, figures, touch_on};
 use turnpath_core::toolpath::{ControlPoint, PathBlock};
 use turnpath_core::{DEG, NM, Scalar, Surface};
+use turnpath_verify::Meter;
 
 const STEP: f64 = 9.0 * DEG;
 const RIM: f64 = 2.5;
@@ -98,49 +99,168 @@ fn over_roof(slope: f64, c: f64) -> [f64; 2] {
 
 const NOSE: f64 = 1.0;
 
+/// Where the ridge lies in a segment: between two instants, on one, and near the ends.
+const RIDGES: [f64; 7] = [
+    5.5 / 16.0,
+    0.3,
+    0.51,
+    8.0 / 16.0,
+    1.4 / 16.0,
+    0.6 / 16.0,
+    15.5 / 16.0,
+];
+
+/// A segment over the ridge of a roof, and its error by the closed form, mm, at a time from 0 to 1.
+fn over_ridge(slope: f64, place: f64) -> (PathBlock, impl Fn(f64) -> f64) {
+    let ends = [-place * STEP, (1.0 - place) * STEP];
+    let nodes = ends.map(|c| (c, over_roof(slope, c)));
+    let mut points = PathBlock::default();
+    for (c, [z, rate]) in nodes {
+        points.push(ControlPoint {
+            t: (c - ends[0]) / SPEED,
+            c,
+            x: RIM,
+            z,
+            vc: SPEED,
+            vx: 0.0,
+            vz: rate * SPEED,
+        });
+    }
+    let [(_, [z0, r0]), (_, [z1, r1])] = nodes;
+    let error = move |s: f64| {
+        let u = 1.0 - s;
+        let by_places = z0 * u * u * (1.0 + 2.0 * s) + z1 * s * s * (1.0 + 2.0 * u);
+        let by_rates = STEP * s * u * (r0 * u - r1 * s);
+        by_places + by_rates - over_roof(slope, ends[0] + s * STEP)[0]
+    };
+    (points, error)
+}
+
+/// The largest |error| of ten thousand places, mm.
+fn largest(error: impl Fn(f64) -> f64) -> f64 {
+    let each = (0..=10_000).map(|k| error(f64::from(k) * 1e-4).abs());
+    each.fold(0.0, f64::max)
+}
+
 /// A segment over a ridge, which lies anywhere between two instants, against ten thousand places of the closed form.
 #[test]
 fn the_top_over_a_ridge_is_found_between_instants() {
     let slope = 2e-3;
     let touch = touch_on(Roof { slope }, RIM, NOSE, true);
-    for place in [
-        5.5 / 16.0,
-        0.3,
-        0.51,
-        8.0 / 16.0,
-        1.4 / 16.0,
-        0.6 / 16.0,
-        15.5 / 16.0,
-    ] {
-        let ends = [-place * STEP, (1.0 - place) * STEP];
-        let nodes = ends.map(|c| (c, over_roof(slope, c)));
-        let mut points = PathBlock::default();
-        for (c, [z, rate]) in nodes {
-            points.push(ControlPoint {
-                t: (c - ends[0]) / SPEED,
-                c,
-                x: RIM,
-                z,
-                vc: SPEED,
-                vx: 0.0,
-                vz: rate * SPEED,
-            });
-        }
-        let [(_, [z0, r0]), (_, [z1, r1])] = nodes;
-        let error = |s: f64| {
-            let u = 1.0 - s;
-            let by_places = z0 * u * u * (1.0 + 2.0 * s) + z1 * s * s * (1.0 + 2.0 * u);
-            let by_rates = STEP * s * u * (r0 * u - r1 * s);
-            by_places + by_rates - over_roof(slope, ends[0] + s * STEP)[0]
-        };
-        let each = (0..=10_000).map(|k| error(f64::from(k) * 1e-4).abs());
-        let largest = each.fold(0.0, f64::max);
+    for place in RIDGES {
+        let (points, error) = over_ridge(slope, place);
+        let largest = largest(error);
         let found = figures(&touch, &points).playback.max();
         assert!(
             (found / largest - 1.0).abs() < 4e-3,
             "{place}: {found} for {largest}"
         );
     }
+}
+
+/// An error against limits need not be the largest one, but it lies where that lies: beside each limit, and between
+/// two of them.
+#[test]
+fn an_error_against_limits_lies_on_the_side_of_the_top_over_a_ridge() {
+    let slope = 2e-3;
+    let touch = touch_on(Roof { slope }, RIM, NOSE, true);
+    for place in RIDGES {
+        let (points, error) = over_ridge(slope, place);
+        let largest = largest(error);
+        let of = |limits: &[f64]| {
+            let found = Meter::errors_against(&touch, &points, &[0..1], limits).unwrap();
+            let sides = limits.iter().map(|limit| found[0] > *limit);
+            assert!(
+                sides.eq(limits.iter().map(|limit| largest > *limit)),
+                "{place}: {found:?} for {largest} against {limits:?}"
+            );
+            found[0]
+        };
+        for part in [0.1, 0.5, 0.7, 0.9, 0.99, 1.01, 1.1, 1.5, 10.0] {
+            of(&[part * largest]);
+            of(&[0.75 * part * largest, part * largest]);
+        }
+        let exact = Meter::segment_errors(&touch, &points).unwrap();
+        assert_eq!(of(&[0.99 * largest, 1.01 * largest]), exact[0]);
+        assert!(of(&[10.0 * largest]) <= exact[0]);
+    }
+}
+
+#[test]
+fn an_error_in_the_middle_is_that_of_the_closed_form_and_below_the_top() {
+    let slope = 2e-3;
+    let touch = touch_on(Roof { slope }, RIM, NOSE, true);
+    for place in RIDGES {
+        let (points, error) = over_ridge(slope, place);
+        let found = Meter::errors_at_middles(&touch, &points, &[0..1]).unwrap();
+        assert!((found[0] - error(0.5).abs()).abs() < 1e-12, "{place}");
+        assert!(found[0] <= Meter::segment_errors(&touch, &points).unwrap()[0]);
+    }
+}
+
+/// Segments over the ridge, which the path crosses once a turn.
+fn turns_over_roof(slope: f64, segments: usize) -> PathBlock {
+    let mut points = PathBlock::default();
+    for k in 0..=segments {
+        let c = (k as f64 + 0.3) * STEP;
+        // C of the nearest crossing is 0 here.
+        let from_ridge = c - PI * (c / PI).round();
+        let [z, rate] = over_roof(slope, from_ridge);
+        points.push(ControlPoint {
+            t: c / SPEED,
+            c,
+            x: RIM,
+            z,
+            vc: SPEED,
+            vx: 0.0,
+            vz: rate * SPEED,
+        });
+    }
+    points
+}
+
+/// Runs of a block have the errors that they have in the whole block, over ridges and beside them.
+#[test]
+fn errors_of_runs_are_those_of_the_block() {
+    let slope = 2e-3;
+    let (touch, points) = (
+        touch_on(Roof { slope }, RIM, NOSE, true),
+        turns_over_roof(slope, 300),
+    );
+    let all = Meter::segment_errors(&touch, &points).unwrap();
+    let tops = all.iter().filter(|error| **error > 10.0 * NM).count();
+    assert_eq!(tops, 15, "{all:?}");
+    let limits = [10.0 * NM, 1e3 * NM];
+    let side = |error: &f64| limits.map(|limit| *error > limit);
+    let one = 0..300;
+    for runs in [
+        &[one][..],
+        &[0..1, 7..200, 250..251, 299..300],
+        &[5..5],
+        &[],
+    ] {
+        let numbers = || runs.iter().cloned().flatten();
+        let found = Meter::errors_against(&touch, &points, runs, &limits).unwrap();
+        let expected = numbers().map(|number| side(&all[number]));
+        assert!(found.iter().map(side).eq(expected), "{runs:?}");
+        let middles = Meter::errors_at_middles(&touch, &points, runs).unwrap();
+        assert_eq!(middles.len(), found.len());
+        for (middle, number) in middles.into_iter().zip(numbers()) {
+            assert!(middle <= all[number] + 1e-12, "{number}: {middle}");
+        }
+    }
+}
+
+/// From the middle itself no touch is found, and that says nothing of the segment.
+#[test]
+fn a_middle_without_a_touch_decides_nothing() {
+    let mut turn = astigmatic_path(AST5, 0.0, 4, DEG, |_| (RIM, 0.0));
+    turn.z[2] = f64::NAN;
+    let touch = touch_on(AST5, RIM, 1.0, false);
+    let middles = Meter::errors_at_middles(&touch, &turn, &[0..4]).unwrap();
+    assert_eq!(middles[1..3], [0.0; 2]);
+    let errors = Meter::errors_against(&touch, &turn, &[0..4], &[NM]).unwrap();
+    assert_eq!(errors[1..3], [f64::INFINITY; 2]);
 }
 
 #[test]

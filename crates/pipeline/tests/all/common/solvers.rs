@@ -20,6 +20,28 @@ impl VelocitySolver for Exact {
     }
 }
 
+/// A solver that says that it depends on more than it does.
+pub struct Saying<S>(pub S, pub Dependence);
+
+impl<S: VelocitySolver> VelocitySolver for Saying<S> {
+    fn dependence(&self) -> Dependence {
+        self.1
+    }
+
+    fn solve(&self, nodes: Nodes<'_>, out: Velocities<'_>) -> Result<()> {
+        self.0.solve(nodes, out)
+    }
+
+    fn solve_sequential(
+        &self,
+        nodes: Nodes<'_>,
+        _: &mut Vec<f64>,
+        out: Velocities<'_>,
+    ) -> Result<()> {
+        self.0.solve(nodes, out)
+    }
+}
+
 /// The exact rates of C and X, and no velocity of Z: the error falls only with the step.
 pub struct Resting;
 
