@@ -6,7 +6,9 @@ use std::sync::Arc;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use turnpath_core::{GradientSeries, Gradients, Params, Series, Strategy, SurfaceModel};
+use turnpath_core::{
+    GradientSeries, Gradients, Params, Series, SeriesOrders, Strategy, SurfaceModel,
+};
 use turnpath_grid::GridSag;
 use turnpath_maps::Map;
 use turnpath_surfaces::Conic;
@@ -107,5 +109,34 @@ fn series(bencher: Bencher<'_, '_>, which: Which) {
             zy: &mut zy,
         };
         surface.series(black_box(&x), &y, out)
+    });
+}
+
+/// A profile's height, slope and bend: most series of a check are these.
+#[divan::bench(args = ALL)]
+fn height_series_to_order_2(bencher: Bencher<'_, '_>, which: Which) {
+    let (surface, (x, y)) = (surface(which), curves());
+    let mut z = vec![[0.0; 5]; POINTS];
+    bencher
+        .counter(ItemsCount::new(POINTS))
+        .bench_local(|| surface.height_series_to(2, black_box(&x), &y, &mut z));
+}
+
+/// The heights and slopes that curvatures come from.
+#[divan::bench(args = ALL)]
+fn series_to_order_1(bencher: Bencher<'_, '_>, which: Which) {
+    let (surface, (x, y)) = (surface(which), curves());
+    let [mut z, mut zx, mut zy] = [0; 3].map(|_| vec![[0.0; 5]; POINTS]);
+    let orders = SeriesOrders {
+        heights: 1,
+        slopes: 1,
+    };
+    bencher.counter(ItemsCount::new(POINTS)).bench_local(|| {
+        let out = GradientSeries {
+            z: &mut z,
+            zx: &mut zx,
+            zy: &mut zy,
+        };
+        surface.series_to(orders, black_box(&x), &y, out)
     });
 }

@@ -4,9 +4,15 @@
 //! side. Rows are weighted place by place, and then transposed, so that places lie side by side again.
 
 use crate::basis::{GROUP, NO_SPLINES, Numbers, Splines, derivatives};
-use crate::spline::{Line, NO_LINE, NO_PATCH, Spline, combine};
+use crate::spline::{Line, NO_LINE, NO_PATCH, Patch, Spline, combine};
 
-/// The spline and its first `N` orders of derivatives, in cells, at a group of places.
+/// With so many orders of derivatives at most, a copy of the coefficients stays in registers for all of them. With
+/// more, the compiler puts it into memory, and reading the rows themselves takes less time.
+const FEW_ORDERS: usize = 3;
+
+/// The spline and its first `N` orders of derivatives, in cells, at a group of places. It is aligned so that
+/// no register of 512 bits crosses a border of the cache's lines.
+#[repr(align(64))]
 pub struct Group<const N: usize> {
     /// The splines along x and their derivatives.
     across: [Splines; N],
@@ -56,6 +62,14 @@ impl<const N: usize> Group<N> {
         for (place, weighted) in self.weighted.iter_mut().enumerate().take(count) {
             let cell = [places.columns[place], places.rows[place]];
             let lines = spline.lines(cell, [x[place], y[place]], &mut patch);
+            let copy: Patch;
+            let lines = match N <= FEW_ORDERS {
+                true => {
+                    copy = lines.map(|line| *line);
+                    copy.each_ref()
+                }
+                false => lines,
+            };
             for (weighted, down) in weighted.iter_mut().zip(&self.down) {
                 let weights = std::array::from_fn(|m| down[m][place]);
                 *weighted = combine(&lines, &weights);
