@@ -2,7 +2,10 @@
 
 use crate::extreme::{self, Extreme};
 use crate::surface::GradientSeries;
-use crate::{RadialRange, Result, Scalar, Series, SeriesOrders, StrategyError, SurfaceModel};
+use crate::{
+    RadialRange, Result, Scalar, Series, SeriesOrders, StrategyError, SurfaceModel,
+    sines_and_cosines,
+};
 
 /// The extremes of a surface over a part, each with its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,14 +128,11 @@ impl Room {
         rho: &[f64],
         out: &mut [[f64; 5]],
     ) -> Result<()> {
-        let places: Vec<(f64, f64)> = theta
-            .iter()
-            .zip(rho)
-            .map(|(theta, rho)| {
-                let (sin, cos) = Scalar::sin_cos(*theta);
-                (rho * cos, rho * sin)
-            })
-            .collect();
+        let [mut sines, mut cosines] = [(); 2].map(|()| vec![0.0; theta.len()]);
+        sines_and_cosines(theta, &mut sines, &mut cosines);
+        let rays = sines.iter().zip(&cosines).zip(rho);
+        let places = rays.map(|((sine, cosine), rho)| (rho * cosine, rho * sine));
+        let places: Vec<(f64, f64)> = places.collect();
         self.place(&places);
         for ([x, y], [zx, zy]) in [
             (&self.along_x, &mut self.of_x),

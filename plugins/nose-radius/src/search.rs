@@ -20,7 +20,7 @@ const MOST_TRIALS: usize = 160;
 
 /// Number of searches that go on together. Near ridges the last ones take many steps, each of which asks the
 /// surface once for all that are left, so that more searches share them. Their state stays in the cache of the
-/// second level.
+/// second level. There are as many as a byte has numbers.
 pub const WIDTH: usize = 256;
 
 /// Flags are numbers too, 0 or 1: the compiler leaves loops over columns of other types in scalar
@@ -191,28 +191,30 @@ impl Searches {
 
     /// Lets the searches leave that have ended.
     fn keep_open(&mut self) {
+        let mut open = [0; WIDTH];
         let mut kept = 0;
-        for i in 0..self.count {
-            if self.has_ended[i] == YES {
-                continue;
+        for (number, has_ended) in (0..=u8::MAX).zip(&self.has_ended[..self.count]) {
+            if *has_ended != YES {
+                open[kept] = number;
+                kept += 1;
             }
-            self.point[kept] = self.point[i];
-            let [x, y] = &mut self.place;
-            let own = [&mut self.rho, &mut self.sin, &mut self.cos, x, y];
-            let bracket = [&mut self.trial, &mut self.lower, &mut self.upper];
-            let way = [
-                &mut self.last,
-                &mut self.gap,
-                &mut self.rate,
-                &mut self.step,
-            ];
-            let tried = [&mut self.lower_tried, &mut self.upper_tried];
-            for column in own.into_iter().chain(bracket).chain(tried).chain(way) {
-                column[kept] = column[i];
-            }
-            kept += 1;
         }
         self.count = kept;
+        let open = &open[..kept];
+        let [x, y] = &mut self.place;
+        let own = [&mut self.rho, &mut self.sin, &mut self.cos, x, y];
+        let bracket = [&mut self.trial, &mut self.lower, &mut self.upper];
+        let way = [
+            &mut self.last,
+            &mut self.gap,
+            &mut self.rate,
+            &mut self.step,
+        ];
+        let tried = [&mut self.lower_tried, &mut self.upper_tried];
+        for column in own.into_iter().chain(bracket).chain(tried).chain(way) {
+            move_forward(column, open);
+        }
+        move_forward(&mut self.point, open);
     }
 }
 
@@ -282,6 +284,13 @@ impl Loop for Trial<'_> {
             ended += u64::from(has_ended);
         }
         ended as usize
+    }
+}
+
+/// Moves chosen numbers of a column to its beginning, in their order.
+fn move_forward<T: Copy>(column: &mut [T; WIDTH], chosen: &[u8]) {
+    for (to, from) in chosen.iter().enumerate() {
+        column[to] = column[usize::from(*from)];
     }
 }
 

@@ -5,11 +5,11 @@ use std::ops::Range;
 use turnpath_core::{Result, StrategyError};
 
 /// Points at a time. From 16 points on, a call across the plugin boundary costs nothing that can be
-/// measured, and the buffers of 64 points fit into the first cache.
-pub(super) const POINTS: usize = 64;
+/// measured, and the buffers of 128 points fit into the first cache.
+pub(super) const POINTS: usize = 128;
 
 /// Curves at a time: each has five coefficients.
-pub(super) const CURVES: usize = 32;
+pub(super) const CURVES: usize = 64;
 
 /// The ranges of at most `room` points each that make up a batch.
 pub(super) fn ranges(count: usize, room: usize) -> impl Iterator<Item = Range<usize>> {
