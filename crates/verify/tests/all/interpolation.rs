@@ -1,6 +1,7 @@
 //! The interpolation error against the remainder of cubic interpolation and known figures.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 use crate::common::{AST5, SPEED, astigmatic_path, figures, touch_on};
 use turnpath_core::toolpath::{ControlPoint, PathBlock};
@@ -8,6 +9,13 @@ use turnpath_core::{DEG, NM, Scalar, Surface};
 use turnpath_verify::Meter;
 
 const STEP: f64 = 9.0 * DEG;
+
+/// Runs of segments.
+const FIRST: Range<usize> = 0..1;
+const FOUR: Range<usize> = 0..4;
+const WHOLE: Range<usize> = 0..300;
+const NONE: Range<usize> = 5..5;
+
 const RIM: f64 = 2.5;
 
 /// The turn at the rim of AST-5, in steps of 9 deg with exact velocities.
@@ -168,7 +176,7 @@ fn an_error_against_limits_lies_on_the_side_of_the_top_over_a_ridge() {
         let (points, error) = over_ridge(slope, place);
         let largest = largest(error);
         let of = |limits: &[f64]| {
-            let found = Meter::errors_against(&touch, &points, &[0..1], limits).unwrap();
+            let found = Meter::errors_against(&touch, &points, &[FIRST], limits).unwrap();
             let sides = limits.iter().map(|limit| found[0] > *limit);
             assert!(
                 sides.eq(limits.iter().map(|limit| largest > *limit)),
@@ -192,7 +200,7 @@ fn an_error_in_the_middle_is_that_of_the_closed_form_and_below_the_top() {
     let touch = touch_on(Roof { slope }, RIM, NOSE, true);
     for place in RIDGES {
         let (points, error) = over_ridge(slope, place);
-        let found = Meter::errors_at_middles(&touch, &points, &[0..1]).unwrap();
+        let found = Meter::errors_at_middles(&touch, &points, &[FIRST]).unwrap();
         assert!((found[0] - error(0.5).abs()).abs() < 1e-12, "{place}");
         assert!(found[0] <= Meter::segment_errors(&touch, &points).unwrap()[0]);
     }
@@ -232,11 +240,10 @@ fn errors_of_runs_are_those_of_the_block() {
     assert_eq!(tops, 15, "{all:?}");
     let limits = [10.0 * NM, 1e3 * NM];
     let side = |error: &f64| limits.map(|limit| *error > limit);
-    let one = 0..300;
     for runs in [
-        &[one][..],
+        &[WHOLE][..],
         &[0..1, 7..200, 250..251, 299..300],
-        &[5..5],
+        &[NONE],
         &[],
     ] {
         let numbers = || runs.iter().cloned().flatten();
@@ -257,9 +264,9 @@ fn a_middle_without_a_touch_decides_nothing() {
     let mut turn = astigmatic_path(AST5, 0.0, 4, DEG, |_| (RIM, 0.0));
     turn.z[2] = f64::NAN;
     let touch = touch_on(AST5, RIM, 1.0, false);
-    let middles = Meter::errors_at_middles(&touch, &turn, &[0..4]).unwrap();
+    let middles = Meter::errors_at_middles(&touch, &turn, &[FOUR]).unwrap();
     assert_eq!(middles[1..3], [0.0; 2]);
-    let errors = Meter::errors_against(&touch, &turn, &[0..4], &[NM]).unwrap();
+    let errors = Meter::errors_against(&touch, &turn, &[FOUR], &[NM]).unwrap();
     assert_eq!(errors[1..3], [f64::INFINITY; 2]);
 }
 
