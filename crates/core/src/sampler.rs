@@ -10,9 +10,9 @@ use crate::{NodeList, Path, Result, Revolutions};
 pub enum Dependence {
     /// The answer depends on the block alone.
     Local,
-    /// The answer also depends on this many nodes before and after the block. A velocity depends on so many nodes
-    /// on either side of its own, and on no others of its block: refinement plays no segment again whose ends lie
-    /// farther from all new nodes.
+    /// The answer also depends on this many nodes before and after the block. The velocities of a node depend on so
+    /// many nodes on either side of it, and on no others of its block. So refinement does not play a segment again
+    /// if both of its ends lie farther from every new node.
     Overlap(usize),
     /// The answer depends on everything before the block. The host processes the blocks in order
     /// and passes a small state from one to the next.

@@ -1,4 +1,5 @@
-//! How exact the largest error of a segment has to be.
+//! How exact the largest error of a segment has to be: a report says the error itself, and refinement asks on which side
+//! of its aim the error lies.
 
 /// How exact an error is wanted.
 #[derive(Debug, Clone, Copy)]
