@@ -37,6 +37,7 @@ mod ordinary_file;
 mod part_calls;
 mod part_name;
 mod parts;
+mod path_mark;
 mod path_reader;
 mod pmac;
 mod polynomial;

@@ -120,9 +120,15 @@ impl PartName {
             PartNames::Free => format!("{stem}-part-{number}"),
             PartNames::Sinumerik => sinumerik_name(&stem, number),
         };
+        Self::of_file(&format!("{stem}.{extension}"), number, numbers)
+    }
+
+    /// The name of part `number`, which a file has.
+    pub(crate) fn of_file(file: &str, number: u32, numbers: &PartNumbers) -> Self {
+        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
         Self {
-            file: format!("{stem}.{extension}"),
-            stem,
+            stem: stem.to_owned(),
+            file: file.to_owned(),
             number,
             program_number: numbers.program_of(number),
         }

@@ -15,11 +15,10 @@ use crate::forward_rates::ForwardRates;
 use crate::lines::{LineReader, refuse_control_characters, refuse_other_blanks};
 use crate::part_calls::{OpenPart, PartCalls};
 use crate::part_name::PartName;
+use crate::path_mark::PathMark;
 use crate::path_reader::{ReadCount, ReadPath};
 use crate::post::{Grammar, Post};
-use crate::program_format::{
-    APPROACH_MARK, DEPTHS_MARK, END_MARK, END_OF_DEPTHS_MARK, ProgramFormat, RETREAT_MARK, mark,
-};
+use crate::program_format::{END_MARK, ProgramFormat, mark};
 use crate::read_error::ReadError;
 use crate::travel_check::TravelCheck;
 use crate::turn::{check_turn, check_velocities};
@@ -227,68 +226,83 @@ impl<R: Read> ProgramReader<R> {
             self.place = Place::Path;
             return Ok(true);
         }
-        let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
-        if let Some(section) = sections.into_iter().find(|section| text == mark(*section)) {
-            let is_late = matches!(self.place, Place::Retreat | Place::EndOfDepths);
-            if is_late || self.section.is_some_and(|last| section <= last) {
-                return Err(format!(
-                    "`{} {text}` is out of order: the sections are lead-in, cutting, lead-out",
-                    self.post.comment
-                ));
+        match PathMark::of(&text) {
+            Some(mark) => self.take_mark(mark, &text).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Goes on to what a mark begins, or ends the path.
+    fn take_mark(&mut self, mark: PathMark, text: &str) -> Result<(), String> {
+        match (mark, self.place) {
+            (PathMark::Section(section), _) => self.begin_section(section, text),
+            (PathMark::End { points }, _) => self.end_path(points),
+            (PathMark::Depths, Place::Header) => {
+                self.place = Place::Depths;
+                self.depths.begin()
             }
-            self.section = Some(section);
-            self.place = Place::Path;
-            if section == Section::LeadIn {
-                self.travel.begin_lead_in();
+            (PathMark::Approach, Place::Header | Place::Depths) => {
+                self.place = Place::Approach;
+                self.travel.begin_approach();
+                Ok(())
             }
-            return Ok(true);
+            (PathMark::Retreat, Place::Path) => {
+                self.place = Place::Retreat;
+                self.travel.begin_retreat(self.line)?;
+                self.take_held_points();
+                Ok(())
+            }
+            (PathMark::EndOfDepths, Place::Retreat) => {
+                self.place = Place::EndOfDepths;
+                self.depths.end()
+            }
+            _ => {
+                let comment = self.post.comment;
+                Err(format!(
+                    "`{comment} {text}` is out of order: it is depths, approach, path, retreat, end of depths"
+                ))
+            }
         }
-        if text == DEPTHS_MARK && self.place == Place::Header {
-            self.place = Place::Depths;
-            return self.depths.begin().map(|()| true);
-        }
-        if text == END_OF_DEPTHS_MARK && self.place == Place::Retreat {
-            self.place = Place::EndOfDepths;
-            return self.depths.end().map(|()| true);
-        }
-        if text == APPROACH_MARK && matches!(self.place, Place::Header | Place::Depths) {
-            self.place = Place::Approach;
-            self.travel.begin_approach();
-            return Ok(true);
-        }
-        if text == RETREAT_MARK && self.place == Place::Path {
-            self.place = Place::Retreat;
-            self.travel.begin_retreat(self.line)?;
-            let last = self.grammar.finish();
-            self.wait(last);
-            return Ok(true);
-        }
-        let around = [DEPTHS_MARK, APPROACH_MARK, RETREAT_MARK, END_OF_DEPTHS_MARK];
-        if around.contains(&text.as_str()) {
-            let comment = self.post.comment;
+    }
+
+    fn begin_section(&mut self, section: Section, text: &str) -> Result<(), String> {
+        let is_late = matches!(self.place, Place::Retreat | Place::EndOfDepths);
+        if is_late || self.section.is_some_and(|last| section <= last) {
             return Err(format!(
-                "`{comment} {text}` is out of order: it is depths, approach, path, retreat, end of depths"
+                "`{} {text}` is out of order: the sections are lead-in, cutting, lead-out",
+                self.post.comment
             ));
         }
-        let Some(said) = text.strip_prefix(END_MARK) else {
-            return Ok(false);
-        };
+        self.section = Some(section);
+        self.place = Place::Path;
+        if section == Section::LeadIn {
+            self.travel.begin_lead_in();
+        }
+        Ok(())
+    }
+
+    /// Ends the path, which has so many points as its end mark says. Before the first section there is none to end.
+    fn end_path(&mut self, points: Option<u64>) -> Result<(), String> {
         if self.parts.caller.is_some() {
             return Err("the path ends within a part: the main program ends it".to_owned());
         }
-        if self.section.is_some() {
-            let points = said_points(said);
-            self.said_points = Some(points.ok_or("the end mark must give the number of points")?);
-            if self.place == Place::Path {
-                let last = self.grammar.finish();
-                self.wait(last);
-            }
-            self.travel
-                .check_retreat(self.section == Some(Section::LeadOut))?;
-            self.place = Place::Footer;
-            self.depths.finish(&self.format)?;
+        if self.section.is_none() {
+            return Ok(());
         }
-        Ok(true)
+        self.said_points = Some(points.ok_or("the end mark must give the number of points")?);
+        if self.place == Place::Path {
+            self.take_held_points();
+        }
+        self.travel
+            .check_retreat(self.section == Some(Section::LeadOut))?;
+        self.place = Place::Footer;
+        self.depths.finish(&self.format)
+    }
+
+    /// Takes the points that the grammar holds back until it knows the line behind them.
+    fn take_held_points(&mut self) {
+        let held = self.grammar.finish();
+        self.wait(held);
     }
 
     /// Reads a line of the path.
@@ -412,16 +426,9 @@ impl<R: Read> ProgramReader<R> {
         })?;
         let main = std::mem::replace(&mut self.lines, LineReader::new(part));
         let own = std::mem::replace(&mut self.path, path);
-        let text = text_name(&name);
-        let stem = text.rsplit_once('.').map_or(text, |(stem, _)| stem);
-        let numbers = self.format.part_numbers;
-        let around = self.post.dialect.part_frame(&PartName {
-            stem: stem.to_owned(),
-            file: text.to_owned(),
-            number: self.parts.number(),
-            program_number: numbers.program_of(self.parts.number()),
-        });
-        self.parts.expect(around);
+        let numbers = &self.format.part_numbers;
+        let part = PartName::of_file(text_name(&name), self.parts.number(), numbers);
+        self.parts.expect(self.post.dialect.part_frame(&part));
         self.parts.caller = Some((main, own, self.line));
         self.line = 0;
         Ok(())
@@ -438,17 +445,6 @@ impl<R: Read> ProgramReader<R> {
         }
         Ok(true)
     }
-}
-
-/// The points that an end mark says, by what stands behind its first words: `: 12 points`, and two
-/// dashes that may be missing.
-fn said_points(said: &str) -> Option<u64> {
-    let number = said.trim_start().strip_prefix(':')?.trim_start();
-    let end = number.find(|c: char| !c.is_ascii_digit())?;
-    let (digits, rest) = number.split_at(end);
-    let points = rest.trim_start().strip_prefix("points")?;
-    let is_whole = matches!(points.trim_start(), "" | "--");
-    digits.parse().ok().filter(|_| is_whole)
 }
 
 impl<R: Read> ProgramReader<R> {
