@@ -1,11 +1,13 @@
 //! The shape of a part by itself: how high, how steep and how curved it is, whatever tool cuts it.
 
+mod figures;
+mod tips;
+
 use crate::extreme::{self, Extreme};
-use crate::surface::GradientSeries;
-use crate::{
-    RadialRange, Result, Scalar, Series, SeriesOrders, StrategyError, SurfaceModel,
-    sines_and_cosines,
-};
+use crate::{RadialRange, Result, SurfaceModel};
+
+use figures::{DOMED, FigureRoom, Figures, HOLLOW};
+use tips::TipSearch;
 
 /// The extremes of a surface over a part, each with its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,40 +29,6 @@ pub struct PartShape {
     /// The same where it is most domed: at the tip of a cone, for example.
     pub has_domed_tip: bool,
 }
-
-/// Places of the two principal curvatures among the figures of a place: of the more hollow one, and of the
-/// more domed one with the other sign.
-const HOLLOW: usize = 3;
-const DOMED: usize = 4;
-
-/// A height, its slopes and their first derivatives: what a curvature needs.
-const CURVATURE: SeriesOrders = SeriesOrders {
-    heights: 1,
-    slopes: 1,
-};
-
-/// The ring around a place that may be a tip, over the outer radius: far above the rounding of positions.
-const CLOSE_RING: f64 = 4e-12;
-/// The ring that it is compared with, over the same.
-const WIDE_RING: f64 = 256.0 * CLOSE_RING;
-/// A curvature that is larger by this much on the close ring, in one direction, has no bound. Around the tip of a cone it is
-/// 256 times as large, where it follows the logarithm of the distance 1.3 times, and at a smooth place it
-/// is the same to less than 10⁻⁶.
-const NO_BOUND: f64 = 1.05;
-/// A curvature below this part of the other one at its place, or of one over the outer radius, is rounding.
-const ROUNDING: f64 = 1e-9;
-
-/// Directions from the closest place to a tip, and lengths of steps there: (1, 0) to (−1, −1).
-const AROUND: [(f64, f64); 8] = [
-    (1.0, 0.0),
-    (1.0, 1.0),
-    (0.0, 1.0),
-    (-1.0, 1.0),
-    (-1.0, 0.0),
-    (-1.0, -1.0),
-    (0.0, -1.0),
-    (1.0, -1.0),
-];
 
 /// Looks for the extremes of a surface within `region`: first on a grid, then closer and closer
 /// around its highest points.
@@ -84,13 +52,14 @@ const AROUND: [(f64, f64); 8] = [
 /// # turnpath_core::Result::Ok(())
 /// ```
 pub fn of(surface: &dyn SurfaceModel, region: RadialRange) -> Result<PartShape> {
-    let mut room = Room::default();
-    let found = extreme::largest(region, &mut |theta, rho, out: &mut [[f64; 5]]| {
+    let mut room = FigureRoom::default();
+    let found = extreme::largest(region, &mut |theta, rho, out: &mut [Figures]| {
         room.measure(surface, theta, rho, out)
     })?;
     let [low, highest, steepest, most_hollow, dome] = found;
-    let has_hollow_tip = room.grows(surface, region, [HOLLOW, DOMED], most_hollow);
-    let has_domed_tip = room.grows(surface, region, [DOMED, HOLLOW], dome);
+    let mut tips = TipSearch::new(surface, region);
+    let has_hollow_tip = tips.has_tip([HOLLOW, DOMED], most_hollow);
+    let has_domed_tip = tips.has_tip([DOMED, HOLLOW], dome);
     let opposite = |extreme: Extreme| Extreme {
         value: -extreme.value,
         ..extreme
@@ -106,177 +75,10 @@ pub fn of(surface: &dyn SurfaceModel, region: RadialRange) -> Result<PartShape> 
     })
 }
 
-/// What a batch of points needs.
-#[derive(Default)]
-struct Room {
-    along_x: [Vec<Series>; 2],
-    along_y: [Vec<Series>; 2],
-    z: Vec<Series>,
-    /// z_x and z_y along x.
-    of_x: [Vec<Series>; 2],
-    /// z_x and z_y along y.
-    of_y: [Vec<Series>; 2],
-}
-
-impl Room {
-    /// −z, z, the angle of the steepest slope, the largest principal curvature, and the smallest one
-    /// with the other sign.
-    fn measure(
-        &mut self,
-        surface: &dyn SurfaceModel,
-        theta: &[f64],
-        rho: &[f64],
-        out: &mut [[f64; 5]],
-    ) -> Result<()> {
-        let [mut sines, mut cosines] = [(); 2].map(|()| vec![0.0; theta.len()]);
-        sines_and_cosines(theta, &mut sines, &mut cosines);
-        let rays = sines.iter().zip(&cosines).zip(rho);
-        let places = rays.map(|((sine, cosine), rho)| (rho * cosine, rho * sine));
-        let places: Vec<(f64, f64)> = places.collect();
-        self.place(&places);
-        for ([x, y], [zx, zy]) in [
-            (&self.along_x, &mut self.of_x),
-            (&self.along_y, &mut self.of_y),
-        ] {
-            let z = &mut self.z;
-            surface.series_to(CURVATURE, x, y, GradientSeries { z, zx, zy })?;
-        }
-        for (i, out) in out.iter_mut().enumerate() {
-            let [slope_x, slope_y] = [self.of_x[0][i], self.of_x[1][i]];
-            let bends = [slope_x[1], slope_y[1], self.of_y[1][i][1]];
-            let [most, least] = principal([slope_x[0], slope_y[0]], bends);
-            let steepest = Scalar::atan(Scalar::hypot(slope_x[0], slope_y[0]));
-            let height = self.z[i][0];
-            *out = [-height, height, steepest, most, -least];
-            if out.iter().any(|value| !value.is_finite()) {
-                return Err(no_height(places[i]));
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether a curvature grows without bound around its largest value; `other` is the one across.
-    fn grows(
-        &mut self,
-        surface: &dyn SurfaceModel,
-        region: RadialRange,
-        [which, other]: [usize; 2],
-        found: Extreme,
-    ) -> bool {
-        // A place that is not hollow at all, or not domed, is no tip.
-        if found.value <= 0.0 {
-            return false;
-        }
-        let (sin, cos) = Scalar::sin_cos(found.theta);
-        let (mut at, mut best) = ((found.rho * cos, found.rho * sin), found.value);
-        let close = CLOSE_RING * region.outer;
-        // A tip is no farther than a radius of curvature.
-        let mut step = best.recip().min(region.outer - region.inner);
-        while step > 0.25 * close {
-            if let Some((place, figure)) = self.largest_around(surface, region, which, (at, step))
-                && figure > best
-            {
-                (at, best) = (place, figure);
-            }
-            step *= 0.5;
-        }
-        AROUND.into_iter().any(|(along_x, along_y)| {
-            let mut figures = |distance: f64| {
-                let place = (at.0 + distance * along_x, at.1 + distance * along_y);
-                let is_on_part = (region.inner..=region.outer).contains(&norm(place));
-                is_on_part
-                    .then(|| self.figures_at(surface, place))
-                    .flatten()
-            };
-            let pair = figures(close).zip(figures(WIDE_RING * region.outer));
-            pair.is_some_and(|(close, wide)| {
-                let rounding = ROUNDING * (region.outer.recip() + close[other].abs());
-                close[which] > rounding && close[which] > NO_BOUND * wide[which]
-            })
-        })
-    }
-
-    /// The largest of a figure in eight directions from a place, on the part, where the surface has it.
-    fn largest_around(
-        &mut self,
-        surface: &dyn SurfaceModel,
-        region: RadialRange,
-        which: usize,
-        ((x, y), distance): ((f64, f64), f64),
-    ) -> Option<((f64, f64), f64)> {
-        let around =
-            AROUND.map(|(along_x, along_y)| (x + distance * along_x, y + distance * along_y));
-        let on_part = around
-            .into_iter()
-            .filter(|place| (region.inner..=region.outer).contains(&norm(*place)));
-        let figures = on_part.filter_map(|place| {
-            let figures = self.figures_at(surface, place)?;
-            Some((place, figures[which]))
-        });
-        figures.max_by(|one, other| one.1.total_cmp(&other.1))
-    }
-
-    /// The figures at a place; `None` where the surface has none, as on a tip itself.
-    fn figures_at(&mut self, surface: &dyn SurfaceModel, (x, y): (f64, f64)) -> Option<[f64; 5]> {
-        let (theta, rho) = (Scalar::atan2(y, x), Scalar::hypot(x, y));
-        let mut figures = [[0.0; 5]];
-        let measured = self.measure(surface, &[theta], &[rho], &mut figures);
-        measured.ok().map(|()| figures[0])
-    }
-
-    /// Straight lines along x and along y through each place.
-    fn place(&mut self, places: &[(f64, f64)]) {
-        let line = |from: f64, rate: f64| [from, rate, 0.0, 0.0, 0.0];
-        for (curves, rate_x, rate_y) in
-            [(&mut self.along_x, 1.0, 0.0), (&mut self.along_y, 0.0, 1.0)]
-        {
-            let [x, y] = curves;
-            x.clear();
-            x.extend(places.iter().map(|place| line(place.0, rate_x)));
-            y.clear();
-            y.extend(places.iter().map(|place| line(place.1, rate_y)));
-        }
-        self.z.resize(places.len(), [0.0; 5]);
-        for column in self.of_x.iter_mut().chain(&mut self.of_y) {
-            column.resize(places.len(), [0.0; 5]);
-        }
-    }
-}
-
-/// The principal curvatures, the larger one first, from the slopes z_x, z_y and from z_xx, z_xy, z_yy.
-///
-/// In the frame of the steepest slope p = |∇z| the shape has the curvatures z_uu/w³ along it and
-/// z_vv/w across, and z_uv/w² between them, with w² = 1 + p².
-fn principal([zx, zy]: [f64; 2], [xx, xy, yy]: [f64; 3]) -> [f64; 2] {
-    let steep = Scalar::hypot(zx, zy);
-    let (cos, sin) = match steep > 0.0 {
-        true => (zx / steep, zy / steep),
-        false => (1.0, 0.0),
-    };
-    let w = Scalar::sqrt(1.0 + steep * steep);
-    let along = (xx * cos * cos + 2.0 * xy * cos * sin + yy * sin * sin) / (w * w * w);
-    let across = (xx * sin * sin - 2.0 * xy * cos * sin + yy * cos * cos) / w;
-    let between = ((yy - xx) * cos * sin + xy * (cos * cos - sin * sin)) / (w * w);
-    let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
-    let off = Scalar::hypot(half, between);
-    [mean + off, mean - off]
-}
-
-fn norm((x, y): (f64, f64)) -> f64 {
-    Scalar::hypot(x, y)
-}
-
-fn no_height((x, y): (f64, f64)) -> StrategyError {
-    StrategyError::failed(format!(
-        "the surface has no height, slope or curvature at x = {x:.4} mm, y = {y:.4} mm; choose a \
-         smaller aperture"
-    ))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Surface;
+    use crate::{Scalar, Surface};
 
     const REGION: RadialRange = RadialRange {
         inner: 0.0,
