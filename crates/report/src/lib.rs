@@ -36,6 +36,7 @@ mod place;
 mod program;
 mod reach;
 mod remark;
+mod remark_subject;
 mod result_check;
 mod rough_path;
 mod run;
@@ -76,7 +77,8 @@ pub use path::PathReport;
 pub use place::{PathPlace, SurfacePoint};
 pub use program::{ControllerCommand, ProgramFigures, ProgramReport, StraightLines};
 pub use reach::{Radial, Radii, Reach};
-pub use remark::{ProgramDigits, Remark, RemarkSubject};
+pub use remark::Remark;
+pub use remark_subject::{ProgramDigits, RemarkSubject};
 pub use result_check::ResultCheck;
 pub use rough_path::{Left, RoughPathReport};
 pub use run::{
