@@ -50,6 +50,8 @@ pub mod strip;
 mod surface;
 pub mod tally;
 mod taylor;
+#[cfg(test)]
+mod test_surface;
 pub mod toolpath;
 mod turns;
 mod velocity;

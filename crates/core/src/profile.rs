@@ -66,17 +66,7 @@ pub fn profile_at(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Scalar, Surface};
-
-    struct Waves;
-
-    impl Surface for Waves {
-        const IN_WIDE_REGISTERS: bool = false;
-
-        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
-            (x * 3.0).sin() * 0.1 + x * y * 0.2
-        }
-    }
+    use crate::test_surface::Waves;
 
     #[test]
     fn profiles_of_any_number_of_places_are_those_of_single_places() {

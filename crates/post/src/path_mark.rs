@@ -27,7 +27,7 @@ pub(crate) enum PathMark {
 }
 
 impl PathMark {
-    /// The mark that a comment is, in small letters; `None` if it is another comment.
+    /// The mark that a comment is; `None` if it is another comment. `text` has small letters alone.
     pub(crate) fn of(text: &str) -> Option<Self> {
         let sections = [Section::LeadIn, Section::Cutting, Section::LeadOut];
         let section = sections.into_iter().find(|section| text == mark(*section));

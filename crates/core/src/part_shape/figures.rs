@@ -132,17 +132,7 @@ fn no_height((x, y): (f64, f64)) -> StrategyError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Surface;
-
-    struct Waves;
-
-    impl Surface for Waves {
-        const IN_WIDE_REGISTERS: bool = false;
-
-        fn sag<S: Scalar>(&self, x: S, y: S) -> S {
-            (x * 3.0).sin() * 0.1 + x * y * 0.2
-        }
-    }
+    use crate::test_surface::Waves;
 
     /// One room for all counts, so that numbers of earlier places would show.
     #[test]
